@@ -108,6 +108,9 @@ pub struct LoadOptions {
     pub confined_to: Option<PathBuf>,
     /// The moment of a glTF file's animations that is rendered; `None`: nodes stand where the file puts them.
     pub exposure: Option<Exposure>,
+    /// The animation of a glTF file that is played, by its name or its number from 0; `None`: all together, or the
+    /// first alone where they animate the same.
+    pub animation: Option<String>,
 }
 
 /// When the shutter is open, in the time of a file's animations.

@@ -25,7 +25,7 @@ pub(crate) use exr_write::{ALL_CHANNELS, blocks_size};
 pub use exr_write::{Metadata, exr_bytes, write_exr};
 pub use flip::{PIXELS_PER_DEGREE, flip_map, hdr_flip_map};
 pub use png_write::{png_bytes, write_png, write_rgb8};
-pub use tone::{Display, ToneMap};
+pub use tone::{Display, ToneMap, automatic_exposure};
 
 /// A picture with what a renderer knows about each pixel. Rows run from the top.
 ///

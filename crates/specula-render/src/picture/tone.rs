@@ -1,6 +1,6 @@
 //! From scene-referred colours to what a screen can show.
 
-use specula_bsdf::Rgb;
+use specula_bsdf::{Real, Rgb};
 
 use super::srgb;
 
@@ -58,6 +58,27 @@ impl Display {
     }
 }
 
+/// The stops that show what is not black as mid grey, 0.18, on geometric average; 0 where all is black.
+///
+/// What is darker than a ten-thousandth of the mean counts as black.
+#[must_use]
+pub fn automatic_exposure(colours: &[Rgb<f32>]) -> f32 {
+    const MID_GREY: f64 = 0.18;
+    const BLACK: f64 = 1e-4;
+    let lights = || {
+        let all = colours.iter().map(|c| f64::from(c.luminance()));
+        all.filter(|l| *l > 0.0 && l.is_finite())
+    };
+    let mean = lights().sum::<f64>() / (colours.len() as f64).max(1.0);
+    let seen = || lights().filter(|l| *l > BLACK * mean);
+    let count = seen().count();
+    if count == 0 {
+        return 0.0;
+    }
+    let logarithm = seen().map(f64::log2).sum::<f64>() / count as f64;
+    f32::of(MID_GREY.log2() - logarithm)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -77,6 +98,18 @@ mod tests {
                 last = y;
             }
         }
+    }
+
+    #[test]
+    fn automatic_exposure_takes_what_is_seen_to_mid_grey() {
+        let grey = |l: &[f32]| l.iter().map(|l| Rgb::splat(*l)).collect::<Vec<_>>();
+        let stops = |l: &[f32]| automatic_exposure(&grey(l));
+        assert!((stops(&[0.18; 3])).abs() < 1e-6);
+        // The geometric mean of 0.72 and 0.045 is 0.18; black and what is no number count for nothing.
+        assert!((stops(&[0.72, 0.045, 0.0, 1e-9, f32::NAN])).abs() < 1e-6);
+        assert!((stops(&[720.0, 45.0]) + 1000.0_f32.log2()).abs() < 1e-5);
+        assert_eq!(stops(&[0.0, f32::INFINITY]), 0.0);
+        assert_eq!(stops(&[]), 0.0);
     }
 
     #[test]

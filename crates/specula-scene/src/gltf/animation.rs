@@ -146,16 +146,62 @@ fn sampler_name(channel: &gltf::animation::Channel<'_>) -> String {
     format!("animations[{animation}].samplers[{sampler}]")
 }
 
+impl<'a> Reader<'a> {
+    /// The animation that was asked for, else all, else the first where several animate the same.
+    fn played(&mut self) -> Result<Vec<gltf::Animation<'a>>, SceneError> {
+        let document = self.document;
+        let mut all: Vec<gltf::Animation<'a>> = document.animations().collect();
+        let named = |a: &gltf::Animation<'_>| match a.name() {
+            Some(name) => format!("\"{name}\""),
+            None => a.index().to_string(),
+        };
+        let names = || all.iter().map(named).collect::<Vec<_>>().join(", ");
+        if let Some(wanted) = self.animation {
+            let is_it = |a: &&gltf::Animation<'_>| a.name() == Some(wanted);
+            let number = wanted.parse::<usize>().ok();
+            let found = all.iter().find(is_it).cloned();
+            let found = found.or_else(|| all.get(number?).cloned());
+            return found.map(|a| vec![a]).ok_or_else(|| {
+                let message = match all.is_empty() {
+                    true => format!("animation \"{wanted}\" is asked for: the file has none"),
+                    false => format!(
+                        "animation \"{wanted}\" is asked for: expected one of {}",
+                        names()
+                    ),
+                };
+                self.error(ErrorKind::Parameter, message)
+            });
+        }
+        let mut animated = HashMap::new();
+        let is_twice = all.iter().any(|a| {
+            let parts = a.channels().map(|c| {
+                let target = c.target();
+                (target.node().index(), target.property() as u8)
+            });
+            let parts: Vec<_> = parts.collect();
+            let mut owners = parts.into_iter();
+            owners.any(|part| *animated.entry(part).or_insert(a.index()) != a.index())
+        });
+        if is_twice {
+            let names = names();
+            all.truncate(1);
+            self.warn(format!(
+                "several animations move the same ({names}): the first is played; `--animation NAME` plays another"
+            ));
+        }
+        Ok(all)
+    }
+}
+
 impl Reader<'_> {
-    /// Reads all animations of the file: they play together.
+    /// Reads the animations of the file that play.
     ///
     /// # Errors
     ///
-    /// Where the keyframes of one are damaged.
+    /// Where the keyframes of one are damaged, or the one that was asked for is not there.
     pub(super) fn animations(&mut self) -> Result<Animations, SceneError> {
-        let document = self.document;
         let mut all = Animations::default();
-        for animation in document.animations() {
+        for animation in self.played()? {
             for (j, channel) in animation.channels().enumerate() {
                 let what = format!("animations[{}].channels[{j}]", animation.index());
                 let node = channel.target().node();

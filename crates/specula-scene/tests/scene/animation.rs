@@ -272,3 +272,57 @@ fn damaged_keyframes_are_refused_where_they_are() {
         read(&text, None).unwrap();
     }
 }
+
+/// Where the first node is after half a second, and what is told, with the second of two animations changed.
+fn played(
+    second: impl Fn(&mut serde_json::Value),
+    animation: Option<&str>,
+) -> Result<(f64, Vec<String>), SceneError> {
+    let mut root: serde_json::Value = serde_json::from_str(&document(&[])).unwrap();
+    let mut other = root["animations"][0].clone();
+    root["animations"][0]["name"] = "walk".into();
+    other["name"] = "run".into();
+    other["samplers"][0]["interpolation"] = "STEP".into();
+    second(&mut other);
+    root["animations"].as_array_mut().unwrap().push(other);
+    let mut options = LoadOptions::default();
+    options.exposure = Some(Exposure {
+        time: Duration::from_millis(500),
+        shutter: Duration::ZERO,
+    });
+    options.animation = animation.map(str::to_owned);
+    let loaded = load_bytes("a.gltf".as_ref(), root.to_string().into_bytes(), &options)?;
+    let told = told(&loaded).into_iter().map(str::to_owned).collect();
+    Ok((places(&loaded.scene, 0.0)[0].w_axis.x, told))
+}
+
+#[test]
+fn one_of_several_animations_is_played() {
+    let same = |_: &mut serde_json::Value| {};
+    let (x, told) = played(same, None).unwrap();
+    assert_eq!(x, 1.0);
+    let first = "several animations move the same (\"walk\", \"run\"): the first is played; \
+                 `--animation NAME` plays another";
+    assert_eq!(told, [first]);
+    for (animation, expected) in [("walk", 1.0), ("0", 1.0), ("run", 0.0), ("1", 0.0)] {
+        let none: Vec<String> = Vec::new();
+        assert_eq!(played(same, Some(animation)).unwrap(), (expected, none));
+    }
+    let error = played(same, Some("swim")).unwrap_err().to_string();
+    assert!(
+        error.contains("expected one of \"walk\", \"run\""),
+        "{error}"
+    );
+}
+
+#[test]
+fn animations_of_different_nodes_play_together() {
+    let child = |other: &mut serde_json::Value| {
+        for channel in other["channels"].as_array_mut().unwrap() {
+            channel["target"]["node"] = 1.into();
+        }
+    };
+    let (x, told) = played(child, None).unwrap();
+    assert_eq!(x, 1.0);
+    assert!(told.is_empty(), "{told:?}");
+}

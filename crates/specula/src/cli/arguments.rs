@@ -4,12 +4,12 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::bsdf::vndf;
-use crate::render::picture::{Display, ToneMap};
 use crate::render::{RenderOptions, TextureFilter};
 use crate::scene::Energy;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use super::device::{Device, GpuArguments};
+use super::display::DisplayArguments;
 use super::export::ExportArguments;
 use super::farm::FarmArguments;
 use super::gpu_report::GpuReportArguments;
@@ -291,32 +291,6 @@ pub(crate) struct RenderArguments {
     pub(crate) loading: LoadingArguments,
 }
 
-/// How PNG files look.
-#[derive(Args, Debug)]
-pub(crate) struct DisplayArguments {
-    /// Exposure of PNG files, in stops: +1 shows twice the light
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true,
-          value_parser = values::finite)]
-    pub(crate) exposure: f32,
-
-    /// How PNG files show what is brighter than white
-    #[arg(long, value_name = "NAME", default_value_t = ToneName::Clamp)]
-    pub(crate) tone: ToneName,
-}
-
-impl DisplayArguments {
-    /// As the library takes it.
-    pub(crate) fn display(&self) -> Display {
-        Display {
-            tone_map: match self.tone {
-                ToneName::Clamp => ToneMap::Clamp,
-                ToneName::Filmic => ToneMap::Filmic,
-            },
-            exposure_stops: self.exposure,
-        }
-    }
-}
-
 const MERGE_EXAMPLES: &str = "\
 Examples:
   specula render scene.pbrt --samples 0..512 -o a.film        on one machine
@@ -419,14 +393,6 @@ impl From<TextureFilterName> for TextureFilter {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ToneName {
-    /// Cut off: all below white is shown exactly
-    Clamp,
-    /// Rolled off as film does (Narkowicz 2015)
-    Filmic,
-}
-
 macro_rules! display_as_value {
     ($($t:ty),*) => {$(
         impl std::fmt::Display for $t {
@@ -436,7 +402,7 @@ macro_rules! display_as_value {
         }
     )*};
 }
-display_as_value!(SamplerName, TextureFilterName, ToneName, MetricName);
+display_as_value!(SamplerName, TextureFilterName, MetricName);
 
 #[derive(Args, Debug)]
 #[command(

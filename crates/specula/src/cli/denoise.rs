@@ -18,7 +18,7 @@ pub(crate) fn run(arguments: &DenoiseArguments) -> Result<ExitCode, Failure> {
     ensure_available()?;
     let outputs = Outputs::new(
         arguments.output.clone(),
-        arguments.display.display(),
+        arguments.display.choice(false),
         &Inputs::new([&arguments.picture]),
     )?;
     let mut picture = read_exr(&arguments.picture)

@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use crate::scene::scene::Light;
 use crate::scene::{Format, LoadOptions, Scene, Warning, builtin, load_bytes, load_with};
 
 use super::Failure;
@@ -27,6 +28,8 @@ pub(crate) struct Named {
     pub(crate) missing: Vec<PathBuf>,
     /// When its reading began.
     pub(crate) since: Instant,
+    /// Whether its lights are in lux and candela.
+    pub(crate) is_photometric: bool,
 }
 
 /// The scene of a file, or the built-in one.
@@ -40,6 +43,7 @@ pub(crate) fn scene(path: Option<&Path>, options: &LoadOptions) -> Result<Named,
             files: Vec::new(),
             missing: Vec::new(),
             since,
+            is_photometric: false,
         });
     };
     let loaded = match path.as_os_str() == "-" {
@@ -55,7 +59,10 @@ pub(crate) fn scene(path: Option<&Path>, options: &LoadOptions) -> Result<Named,
     }
     // A pipe has no name of its own.
     let is_named = path.is_file();
+    let lights = &loaded.scene.lights;
     Ok(Named {
+        is_photometric: loaded.format == Format::Gltf
+            && (lights.iter()).any(|light| !matches!(light, Light::Infinite { .. })),
         name: if is_named {
             stem(path)
         } else {

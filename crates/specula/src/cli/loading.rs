@@ -39,6 +39,11 @@ pub(crate) struct LoadingArguments {
     #[arg(long, value_name = "TIME", value_parser = values::moment)]
     pub(crate) shutter: Option<Duration>,
 
+    /// Which animation of a glTF file, by its name or its number from 0 [default: all together, or the first alone
+    /// where they move the same]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) animation: Option<String>,
+
     /// Deepest nesting of files and references that is not taken for damage [default: 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     pub(crate) limit_nesting: Option<u16>,
@@ -100,6 +105,7 @@ impl LoadingArguments {
         options.folders.clone_from(&self.search);
         options.missing = self.missing.into();
         options.exposure = self.exposure();
+        options.animation.clone_from(&self.animation);
         options
     }
 
@@ -107,7 +113,8 @@ impl LoadingArguments {
     fn exposure(&self) -> Option<Exposure> {
         let frame = |n: u32| Duration::from_secs_f64(f64::from(n) / self.fps);
         let time = self.at.or_else(|| self.frame.map(frame));
-        (time.is_some() || self.shutter.is_some()).then(|| Exposure {
+        let is_asked_for = time.is_some() || self.shutter.is_some() || self.animation.is_some();
+        is_asked_for.then(|| Exposure {
             time: time.unwrap_or_default(),
             shutter: self.shutter.unwrap_or_default(),
         })

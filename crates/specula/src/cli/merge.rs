@@ -16,7 +16,7 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<ExitCode, Failure> {
     let inputs = Inputs::new(&arguments.films);
     let outputs = Outputs::new(
         arguments.output.clone(),
-        arguments.display.display(),
+        arguments.display.choice(false),
         &inputs,
     )?;
     let (film, label) = sum(&arguments.films)?;

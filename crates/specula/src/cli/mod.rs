@@ -20,6 +20,7 @@ mod console;
 mod convert;
 mod denoise;
 mod device;
+mod display;
 mod exit_code;
 #[cfg(feature = "shaders")]
 mod export;

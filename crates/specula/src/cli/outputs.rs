@@ -3,12 +3,14 @@
 use std::collections::HashSet;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 
-use crate::render::picture::{self, Display, Metadata, Picture, check_writable};
+use crate::render::picture::{self, Metadata, Picture, check_writable};
 use crate::render::{FilmBuffer, FilmFile, Label};
 use crate::scene::atomic;
 
 use super::console::say;
+use super::display::DisplayChoice;
 use super::file_id::{FileId, Inputs};
 use super::lock::Lock;
 use super::{Failure, denoise};
@@ -16,7 +18,9 @@ use super::{Failure, denoise};
 /// Where a render goes.
 pub(crate) struct Outputs {
     paths: Vec<PathBuf>,
-    display: Display,
+    display: DisplayChoice,
+    /// Stops of the last PNG file whose exposure was found from what it shows; NaN where there was none.
+    exposure: AtomicU32,
     /// Held while the files may be written.
     locks: Vec<Lock>,
 }
@@ -26,7 +30,7 @@ impl Outputs {
     /// program: now, not after an hour.
     pub(crate) fn new(
         paths: Vec<PathBuf>,
-        display: Display,
+        display: DisplayChoice,
         inputs: &Inputs,
     ) -> Result<Self, Failure> {
         let mut seen = HashSet::new();
@@ -48,6 +52,7 @@ impl Outputs {
         Ok(Self {
             paths,
             display,
+            exposure: AtomicU32::new(f32::NAN.to_bits()),
             locks,
         })
     }
@@ -116,7 +121,12 @@ impl Outputs {
         let mut faults = Vec::new();
         for path in self.paths.iter().filter(|p| !is_film(p)) {
             let written = if has_extension(path, "png") {
-                picture::write_png(path, picture, self.display)
+                let display = self.display.of(&picture.colour);
+                if self.display.is_automatic() {
+                    let stops = display.exposure_stops.to_bits();
+                    self.exposure.store(stops, Ordering::Relaxed);
+                }
+                picture::write_png(path, picture, display)
             } else {
                 picture::write_exr(path, picture, metadata)
             };
@@ -146,7 +156,11 @@ impl Outputs {
     /// The files, for messages.
     pub(crate) fn names(&self) -> String {
         let names: Vec<String> = self.paths.iter().map(|p| p.display().to_string()).collect();
-        names.join(" and ")
+        let stops = f32::from_bits(self.exposure.load(Ordering::Relaxed));
+        match stops.is_nan() {
+            true => names.join(" and "),
+            false => format!("{} (--exposure {stops:.2})", names.join(" and ")),
+        }
     }
 }
 

@@ -117,6 +117,7 @@ impl Context<'_> {
             files,
             missing,
             since,
+            is_photometric,
             ..
         } = loaded;
         let mut options = options(arguments, &scene)?;
@@ -124,7 +125,7 @@ impl Context<'_> {
         memory::check(&scene, &options, self.threads, most, arguments.quiet)?;
         let inputs = Inputs::new(files);
         let paths = paths(arguments, &name, &inputs);
-        let mut outputs = Outputs::new(paths, arguments.display.display(), &inputs)?;
+        let mut outputs = Outputs::new(paths, arguments.display.choice(is_photometric), &inputs)?;
         outputs.claim_checkpoint(&inputs)?;
         let start = start(arguments);
         if arguments.adaptive.is_none() && arguments.noise.is_none() {
