@@ -13,7 +13,7 @@ use crate::problems::Problems;
 use crate::read_file::Files;
 use crate::scene::{
     ColourParam, FloatParam, Geometry, Material, MaterialId, MaterialKind, Mesh, MeshId, Scene,
-    Settings, Shape,
+    Settings, Shape, Texture, TextureId,
 };
 use crate::{Limits, Loaded, mesh, stage};
 
@@ -23,7 +23,7 @@ const RESOLUTION: [u32; 2] = [960, 960];
 /// Longest file whose text is stored to show excerpts in messages.
 const LONGEST_TEXT: u64 = 16 << 20;
 
-/// Reads a mesh with `parse`, and gives it grey paint, a camera that frames it, the built-in studio's
+/// Reads a mesh with `parse`, and gives it grey paint or that of its colours, a camera that frames it, the built-in studio's
 /// light and a floor, which a warning says.
 ///
 /// # Errors
@@ -48,13 +48,19 @@ pub(crate) fn read(
         Ok(read) => read,
         Err(faults) => return Err(refuse(path, files.limits(), problems, &faults)?),
     };
-    let material = Material::new(MaterialKind::Diffuse {
-        reflectance: ColourParam::Value(Rgb::splat(0.5)),
-        roughness: FloatParam::Value(0.0),
-    });
     let camera = stage::camera(BoundingBox::EMPTY, RESOLUTION);
     let mut scene = Scene::empty(camera, stage::film(RESOLUTION), Settings::default());
-    scene.materials.push(material);
+    let is_coloured = !mesh.colours.is_empty();
+    let reflectance = if is_coloured {
+        scene.textures.push(Texture::VertexColour);
+        ColourParam::Texture(TextureId(0))
+    } else {
+        ColourParam::Value(Rgb::splat(0.5))
+    };
+    scene.materials.push(Material::new(MaterialKind::Diffuse {
+        reflectance,
+        roughness: FloatParam::Value(0.0),
+    }));
     scene.meshes.push(mesh);
     let geometry = Geometry::Mesh(MeshId(0));
     let shape = Shape::new(geometry, DMat4::IDENTITY, MaterialId(0));
@@ -69,8 +75,15 @@ pub(crate) fn read(
             fault.to_string(),
         ))
     })?;
-    let message = "the file is a mesh alone: grey paint, the built-in studio's light, a floor and a \
-                   camera that frames it are used (y is up)";
+    let paint = if is_coloured {
+        "paint of its vertices' colours"
+    } else {
+        "grey paint"
+    };
+    let message = format!(
+        "the file is a mesh alone: {paint}, the built-in studio's light, a floor and a camera that frames it are used \
+         (y is up)"
+    );
     let mut warnings = vec![Warning::new(&place, message)];
     let told = cleaning.messages().into_iter();
     warnings.extend(told.map(|message| Warning::new(&place, message)));

@@ -70,6 +70,9 @@ impl Reader<'_> {
             });
         }
         let emission = self.emission(material, base)?;
+        // Without a strength, screens and labels glow; lamps have one.
+        self.has_lamps |=
+            emission.is_some() && material.emissive_strength().is_some_and(|s| s > 1.0);
         let alpha = self.alpha(material, factor, picture)?;
         let kind = if material.unlit() {
             self.warn("unlit materials emit with their base colour");

@@ -306,7 +306,7 @@ impl Search {
                     .into_iter()
                     .filter(|b| !has_bound(accessor, b))
                 {
-                    self.wrong(format!("positions need a member `{bound}` of 3 numbers"));
+                    self.wrong(format!("positions need a `{bound}` of 3 numbers"));
                 }
             }
         }
@@ -342,10 +342,11 @@ fn index_of(value: &Value) -> Option<usize> {
     value.as_u64().and_then(|i| usize::try_from(i).ok())
 }
 
-/// Whether an accessor has a bound of positions.
+/// Whether an accessor has a bound of positions, or none: nothing reads it.
 fn has_bound(accessor: &Value, bound: &str) -> bool {
     let numbers = members(accessor, bound);
-    numbers.len() == 3 && numbers.iter().all(Value::is_number)
+    accessor.get(bound).is_none_or(Value::is_null)
+        || numbers.len() == 3 && numbers.iter().all(Value::is_number)
 }
 
 /// What an element of a list of the root needs beyond the types of its members.

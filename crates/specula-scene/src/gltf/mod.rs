@@ -13,7 +13,7 @@
 //! | faces are culled from behind unless `doubleSided` | both sides are seen: light passes no wall |
 //!
 //! A file without lights gets the built-in studio's and a floor, a file without a camera one that
-//! frames everything; warnings say so.
+//! frames everything; warnings say so. Surfaces that emit are lights where their strength is above 1.
 
 mod accessor;
 mod animation;
@@ -98,6 +98,8 @@ struct Reader<'a> {
     sets: Vec<u32>,
     /// How many vertices were deformed.
     deformed: u64,
+    /// Whether a surface emits more than a screen can show.
+    has_lamps: bool,
 }
 
 /// Reads the scene in `path` and all that it refers to.
@@ -176,6 +178,7 @@ fn parse_into(
         looks: material::Appearances::default(),
         sets: Vec::new(),
         deformed: 0,
+        has_lamps: false,
     };
     reader.warn_of_extensions();
     reader.warn_of_ranges();

@@ -312,10 +312,7 @@ impl Reader<'_> {
                 self.warn("the file has no camera: one that frames everything is used");
             }
         }
-        let emits = |shape: &Shape| shape.emission.is_some();
-        let lit = !scene.lights.is_empty()
-            || scene.shapes.iter().any(emits)
-            || scene.objects.iter().flat_map(|o| &o.shapes).any(emits);
+        let lit = !scene.lights.is_empty() || self.has_lamps;
         if !lit {
             self.warn(match stage::light(&mut scene, bounds) {
                 AddedLight::OverFloor => {

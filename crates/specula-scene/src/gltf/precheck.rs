@@ -14,6 +14,7 @@ pub(super) fn precheck(root: &mut Root) -> Result<(), String> {
     // It knows fewer extensions than are read here.
     root.extensions_required
         .retain(|name| !KNOWN_EXTENSIONS.contains(&name.as_str()));
+    let mut of_positions = Vec::new();
     for (i, mesh) in root.meshes.iter_mut().enumerate() {
         for (j, primitive) in mesh.primitives.iter_mut().enumerate() {
             // Attributes of an application's own (`_NAME`), which say nothing to a renderer.
@@ -26,6 +27,14 @@ pub(super) fn precheck(root: &mut Root) -> Result<(), String> {
                     "meshes[{i}].primitives[{j}].attributes.POSITION: index out of range"
                 ));
             }
+            of_positions.extend(positions.map(|a| a.value()));
+        }
+    }
+    for index in of_positions {
+        // Bounds that nothing reads here.
+        let accessor = &mut root.accessors[index];
+        for bound in [&mut accessor.min, &mut accessor.max] {
+            bound.get_or_insert_with(|| [0; 3].as_slice().into());
         }
     }
     for (i, image) in root.images.iter_mut().enumerate() {

@@ -424,3 +424,20 @@ fn damaged_bytes_never_panic() {
         }
     }
 }
+
+#[test]
+fn positions_need_no_bounds() {
+    let nodes = r#""meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ], "nodes": [ { "mesh": 0 } ]"#;
+    let whole = triangle(nodes);
+    let bare = whole.replace(r#", "min": [0,0,0], "max": [1,1,0]"#, "");
+    assert_ne!(whole, bare);
+    let read = |text: &str| parse(Path::new("t.gltf"), text.as_bytes(), &Limits::default());
+    let (a, b) = (read(&whole).unwrap(), read(&bare).unwrap());
+    assert_eq!(a.scene.meshes[0].positions, b.scene.meshes[0].positions);
+    let wrong = whole.replace(r#""min": [0,0,0]"#, r#""min": ["a"]"#);
+    let error = read(&wrong).unwrap_err().to_string();
+    assert!(
+        error.contains("positions need a `min` of 3 numbers"),
+        "{error}"
+    );
+}

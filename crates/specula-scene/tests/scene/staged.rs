@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use specula_scene::material_text::parse_material;
-use specula_scene::scene::{Geometry, Projection, Shape};
+use specula_scene::scene::{ColourParam, Geometry, MaterialKind, Projection, Shape, Texture};
 use specula_scene::write_pbrt::write_pbrt;
 use specula_scene::{LoadOptions, Loaded, Scene, Summary, check, load, load_bytes};
 
@@ -165,7 +165,8 @@ fn light_of_the_file_is_left_alone() {
     let lamp = r#""extensions": { "KHR_lights_punctual": { "lights": [ { "type": "point" } ] } },
  "materials": [ {} ],
  "nodes": [ { "mesh": 0 }, { "extensions": { "KHR_lights_punctual": { "light": 0 } } } ]"#;
-    let glowing = r#""materials": [ { "emissiveFactor": [1, 1, 1] } ], "nodes": [ { "mesh": 0 } ]"#;
+    let glowing = r#""materials": [ { "emissiveFactor": [1, 1, 1],
+   "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 4 } } } ], "nodes": [ { "mesh": 0 } ]"#;
     for (text, lights) in [(lamp, 1), (glowing, 0)] {
         let loaded = gltf(text);
         let scene = &loaded.scene;
@@ -174,6 +175,30 @@ fn light_of_the_file_is_left_alone() {
         let told: Vec<&str> = loaded.warnings.iter().map(|w| w.message()).collect();
         assert_eq!(told.len(), 1, "{told:?}");
         assert!(told[0].contains("no camera"), "{told:?}");
+    }
+}
+
+#[test]
+fn meshes_alone_have_the_colours_of_their_vertices() {
+    let text = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n";
+    let scene = load_text("colours.obj", text).scene;
+    let MaterialKind::Diffuse { reflectance, .. } = &scene.materials[0].kind else {
+        panic!("{:?}", scene.materials[0].kind)
+    };
+    let ColourParam::Texture(texture) = reflectance else {
+        panic!("{reflectance:?}")
+    };
+    assert_eq!(scene.textures[texture.0], Texture::VertexColour);
+}
+
+#[test]
+fn screens_and_labels_are_no_lamps() {
+    let label = r#""materials": [ { "emissiveFactor": [1, 1, 1] } ], "nodes": [ { "mesh": 0 } ]"#;
+    let unlit = r#""materials": [ { "extensions": { "KHR_materials_unlit": {} } } ], "nodes": [ { "mesh": 0 } ]"#;
+    for text in [label, unlit] {
+        let scene = gltf(text).scene;
+        assert!(scene.floor.is_some() && scene.shapes[0].emission.is_some());
+        assert_eq!(scene.lights.len(), 1);
     }
 }
 
