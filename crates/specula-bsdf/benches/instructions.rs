@@ -10,14 +10,14 @@ use std::process::ExitCode;
 
 use specula_bsdf::batch::{Alphas, Colours, Directions, Level, Lobes, SampleOutcome, Samples};
 use specula_bsdf::bsdf::{
-    CoatedDiffuse, Compensated, Eon, MultibounceConductor, RoughConductor, RoughDielectric,
-    SmoothConductor,
+    CoatedDiffuse, Compensated, Eon, Gltf, GltfParameters, MultibounceConductor, Principled,
+    PrincipledParameters, RoughConductor, RoughDielectric, SmoothConductor,
 };
 use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, Reflectance};
 use specula_bsdf::math::{Stream, rgb, vec3, warp};
 use specula_bsdf::multibounce::MultibounceModel;
-use specula_bsdf::ndf::Ggx;
+use specula_bsdf::ndf::{Beckmann, Ggx};
 use specula_bsdf::vndf::{self, Sampler};
 use specula_bsdf::{Alpha, Bsdf, Rgb, Transport, Vec3};
 
@@ -34,12 +34,15 @@ struct Data {
     samples: Samples<Vec<f32>, Vec<SampleOutcome>>,
     alpha: Alpha<f32>,
     gold: RoughConductor<f32>,
+    beckmann: RoughConductor<f32, Beckmann<f32>>,
     exact: RoughConductor<f32>,
     brushed: RoughConductor<f32>,
     glass: RoughDielectric<f32>,
     mirror: SmoothConductor<f32>,
     eon: Eon<f32>,
     coated_diffuse: CoatedDiffuse<f32>,
+    gltf: Gltf<f32>,
+    principled: Principled<f32>,
     turquin: Compensated<f32>,
     bounces: MultibounceConductor<f32>,
     streams: Vec<Stream>,
@@ -70,6 +73,7 @@ impl Data {
             samples: Samples::rejected(N),
             alpha,
             gold: RoughConductor::new(ggx, gold).with_sampler(Sampler::Bounded),
+            beckmann: RoughConductor::new(Beckmann::new(alpha), gold),
             exact: RoughConductor::new(Ggx::new(Alpha::isotropic(0.3)), gold)
                 .with_sampler(Sampler::Exact),
             brushed: RoughConductor::new(ggx, gold).with_sampler(Sampler::Exact),
@@ -77,6 +81,18 @@ impl Data {
             mirror: SmoothConductor::new(gold),
             eon: Eon::new(Rgb::splat(0.5), 0.5),
             coated_diffuse: CoatedDiffuse::new(Some(ggx), 1.5, Rgb::splat(0.5)),
+            gltf: Gltf::new(GltfParameters {
+                base_colour: rgb(0.8, 0.5, 0.2),
+                metallic: 0.3,
+                roughness: 0.5,
+                ..GltfParameters::default()
+            }),
+            principled: Principled::new(PrincipledParameters {
+                base_colour: rgb(0.8, 0.5, 0.2),
+                metallic: 0.3,
+                clearcoat: 0.5,
+                ..PrincipledParameters::default()
+            }),
             turquin: Compensated::new(ggx, gold, EnergyModel::Turquin(FmsVariant::AverageSeries)),
             bounces: MultibounceConductor::new(
                 ggx,
@@ -133,6 +149,8 @@ fn scalar(data: &mut Data, kernel: &str) -> Option<()> {
 fn scalar_lobe(data: &Data, kernel: &str) -> Option<()> {
     match kernel {
         "gold" => draw_each(data, &data.gold),
+        "beckmann" => draw_each(data, &data.beckmann),
+        "beckmann-eval" => eval_each(data, &data.beckmann),
         "gold-eval" => eval_each(data, &data.gold),
         "exact" => draw_each(data, &data.exact),
         "brushed" => draw_each(data, &data.brushed),
@@ -144,6 +162,10 @@ fn scalar_lobe(data: &Data, kernel: &str) -> Option<()> {
         "eon-eval" => eval_each(data, &data.eon),
         "coated-diffuse" => draw_each(data, &data.coated_diffuse),
         "coated-diffuse-eval" => eval_each(data, &data.coated_diffuse),
+        "gltf" => draw_each(data, &data.gltf),
+        "gltf-eval" => eval_each(data, &data.gltf),
+        "principled" => draw_each(data, &data.principled),
+        "principled-eval" => eval_each(data, &data.principled),
         "turquin" => draw_each(data, &data.turquin),
         "turquin-eval" => eval_each(data, &data.turquin),
         "bounces" => draw_each(data, &data.bounces),
@@ -199,6 +221,10 @@ fn batch_lobe(data: &mut Data, kernel: &str, level: Level) -> Option<()> {
         "eon-eval" => eval_all(data, |d| d.eon, level),
         "coated-diffuse" => draw_all(data, |d| d.coated_diffuse, level),
         "coated-diffuse-eval" => eval_all(data, |d| d.coated_diffuse, level),
+        "gltf" => draw_all(data, |d| d.gltf, level),
+        "gltf-eval" => eval_all(data, |d| d.gltf, level),
+        "principled" => draw_all(data, |d| d.principled, level),
+        "principled-eval" => eval_all(data, |d| d.principled, level),
         "turquin" => draw_all(data, |d| d.turquin, level),
         "turquin-eval" => eval_all(data, |d| d.turquin, level),
         "bounces" => {

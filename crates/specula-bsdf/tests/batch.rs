@@ -10,8 +10,8 @@ use std::collections::BTreeSet;
 
 use batch_common::Elements;
 use specula_bsdf::batch::{
-    Alphas, Any, Colours, Directions, LengthMismatch, Level, Lobes, PerElement, PerElementMetal,
-    SampleOutcome, Samples,
+    Alphas, Any, Colours, Directions, Each, LengthMismatch, Level, Lobes, PerElement,
+    PerElementMetal, SampleOutcome, Samples,
 };
 use specula_bsdf::fresnel::{Reflectance, Schlick};
 use specula_bsdf::vndf::{self, Sampler};
@@ -31,6 +31,33 @@ struct Outcome<T> {
 }
 
 impl Outcome<f32> {
+    /// That of one element.
+    fn at(&self, i: usize) -> Self {
+        let one = |v: &[f32]| vec![v[i]];
+        let colours = |c: &Colours<Vec<f32>>| Colours {
+            r: one(&c.r),
+            g: one(&c.g),
+            b: one(&c.b),
+        };
+        let directions = |d: &Directions<Vec<f32>>| Directions {
+            x: one(&d.x),
+            y: one(&d.y),
+            z: one(&d.z),
+        };
+        Self {
+            f_cos: colours(&self.f_cos),
+            pdf: one(&self.pdf),
+            both: (colours(&self.both.0), one(&self.both.1)),
+            samples: Samples {
+                wi: directions(&self.samples.wi),
+                weight: colours(&self.samples.weight),
+                pdf: one(&self.samples.pdf),
+                outcome: vec![self.samples.outcome[i]],
+            },
+            wi: directions(&self.wi),
+        }
+    }
+
     /// Whether all of it is finite, and values, densities and weights are not negative.
     fn is_sane(&self) -> bool {
         let colours = [&self.f_cos, &self.both.0, &self.samples.weight];
@@ -227,6 +254,10 @@ fn table_lookups_are_exact<T: Real>(seed: u64) {
         let expected_glass = scalar(&glass, &elements);
         let expected_coat = scalar(&coat, &elements);
         let expected_plastic = [plastic, smooth_plastic].map(|lobe| scalar(&lobe, &elements));
+        let gltfs = batch_common::gltfs::<T>(alpha);
+        let expected_gltfs = gltfs.map(|lobe| scalar(&lobe, &elements));
+        let principleds = batch_common::principleds::<T>(alpha);
+        let expected_principleds = principleds.map(|lobe| scalar(&lobe, &elements));
         for level in levels() {
             for (lobe, expected) in lobes.iter().zip(&expected) {
                 assert!(
@@ -242,6 +273,18 @@ fn table_lookups_are_exact<T: Real>(seed: u64) {
                 batch(level, &coat, &elements) == expected_coat,
                 "{level}: {coat:?}"
             );
+            for (lobe, expected) in gltfs.iter().zip(&expected_gltfs) {
+                assert!(
+                    batch(level, lobe, &elements) == *expected,
+                    "{level}: {lobe:?}"
+                );
+            }
+            for (lobe, expected) in principleds.iter().zip(&expected_principleds) {
+                assert!(
+                    batch(level, lobe, &elements) == *expected,
+                    "{level}: {lobe:?}"
+                );
+            }
             for (lobe, expected) in [plastic, smooth_plastic].iter().zip(&expected_plastic) {
                 assert!(
                     batch(level, lobe, &elements) == *expected,
@@ -359,6 +402,41 @@ fn per_element_alphas_are_one_lobe_each() {
             }
         }
     }
+}
+
+/// Any of the lobes between each other, and those alone of which `common` says so, or does not.
+fn own_lobes<L>(kinds: &[L], is_common: impl Fn(&L) -> bool)
+where
+    L: Bsdf<f32> + Copy + core::fmt::Debug,
+    for<'a> Each<'a, L>: Lobes<f32>,
+{
+    let elements = Elements::<f32>::new(N, 19);
+    let (common, rare): (Vec<L>, Vec<L>) = kinds.iter().partition(|lobe| is_common(lobe));
+    for (name, of) in [("any", kinds), ("common", &common[..]), ("rare", &rare[..])] {
+        let lobes: Vec<_> = (0..N).map(|i| of[i * 11 % of.len()]).collect();
+        for level in levels() {
+            let got = batch(level, &Each(&lobes), &elements);
+            for (i, lobe) in lobes.iter().enumerate() {
+                let one = scalar(lobe, &elements.only(i));
+                assert_eq!(got.at(i), one, "{name}, {level}, {i}: {lobe:?}");
+            }
+        }
+        let mut pdf = vec![0.0; N];
+        let (wo, wi) = (elements.wo.as_slices(), elements.wi.as_slices());
+        let short = Each(&lobes[1..]);
+        let error = Level::best().pdf(&short, wo, wi, &mut pdf).unwrap_err();
+        assert_eq!((error.name, error.found), ("lobes", N - 1));
+    }
+}
+
+#[test]
+fn own_lobes_are_one_lobe_each() {
+    let gltfs: Vec<_> = (ALPHAS.into_iter().flat_map(batch_common::gltfs::<f32>)).collect();
+    own_lobes(&gltfs, |lobe| !lobe.transmits());
+    let all = ALPHAS
+        .into_iter()
+        .flat_map(batch_common::principleds::<f32>);
+    own_lobes(&all.collect::<Vec<_>>(), |lobe| !lobe.transmits());
 }
 
 #[test]

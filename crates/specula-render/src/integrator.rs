@@ -23,6 +23,7 @@ pub(crate) mod estimator;
 mod footprints;
 mod hair;
 mod lens_rays;
+mod own_lobes;
 mod path_states;
 mod quadrics;
 mod shade;

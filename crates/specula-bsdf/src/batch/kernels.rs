@@ -5,6 +5,7 @@
 //! loop of its own over a short chunk, need as many loops as there are samplers plus reflectances
 //! instead of their product. Short loops are faster, too: the machine overlaps more iterations.
 
+use super::columns::{self, InColumns, LobeAt};
 use super::lobes::{Family, InStages, Isotropic, Kernel};
 use super::recast::convert;
 use super::slices::{Colours, Directions, SampleOutcome, Samples};
@@ -102,6 +103,21 @@ impl<T: Real> Kernel for Eval<'_, T> {
         let family = family.with(|lobe| lobe.choose_sampler(Sampler::Cap));
         per_reflectance!(family, f => self.each(f));
     }
+
+    #[inline(always)]
+    fn run_in_columns<U, L, const N: usize, const P: usize, const Q: usize>(
+        mut self,
+        lobes: impl LobeAt<L>,
+    ) where
+        U: Real,
+        L: InColumns<U, N, P, Q>,
+    {
+        for i in 0..self.f_cos.r.len() {
+            let (wo, wi) = (self.wo.get_as(i), self.wi.get_as(i));
+            self.f_cos
+                .set_from(i, lobes.at(i).eval(wo, wi, self.transport));
+        }
+    }
 }
 
 impl<T: Real> Eval<'_, T> {
@@ -129,6 +145,19 @@ impl<T: Real> Kernel for Pdf<'_, T> {
     #[inline(always)]
     fn run<U: Real, F: Family<U>>(self, family: F) {
         per_sampler!(family, f => self.each(f));
+    }
+
+    #[inline(always)]
+    fn run_in_columns<U, L, const N: usize, const P: usize, const Q: usize>(
+        self,
+        lobes: impl LobeAt<L>,
+    ) where
+        U: Real,
+        L: InColumns<U, N, P, Q>,
+    {
+        for (i, pdf) in self.pdf.iter_mut().enumerate() {
+            *pdf = convert(lobes.at(i).pdf(self.wo.get_as(i), self.wi.get_as(i)));
+        }
     }
 }
 
@@ -161,6 +190,17 @@ impl<T: Real> Kernel for EvalPdf<'_, T> {
         } else {
             per_sampler!(family, f => per_reflectance!(f, known => self.each(known)));
         }
+    }
+
+    #[inline(always)]
+    fn run_in_columns<U, L, const N: usize, const P: usize, const Q: usize>(
+        self,
+        lobes: impl LobeAt<L>,
+    ) where
+        U: Real,
+        L: InColumns<U, N, P, Q>,
+    {
+        columns::eval_pdf(self, lobes);
     }
 }
 
@@ -225,6 +265,17 @@ impl<T: Real> Kernel for Sample<'_, T> {
             per_sampler!(family, f => per_reflectance!(f, known => self.each(known)));
         }
     }
+
+    #[inline(always)]
+    fn run_in_columns<U, L, const N: usize, const P: usize, const Q: usize>(
+        self,
+        lobes: impl LobeAt<L>,
+    ) where
+        U: Real,
+        L: InColumns<U, N, P, Q>,
+    {
+        columns::sample(self, lobes);
+    }
 }
 
 impl<T: Real> Sample<'_, T> {
@@ -287,6 +338,21 @@ impl<T: Real> Kernel for SampleWi<'_, T> {
         let family = family.with(|lobe| lobe.choose_reflectance(black));
         per_sampler!(family, f => self.each(f));
     }
+
+    #[inline(always)]
+    fn run_in_columns<U, L, const N: usize, const P: usize, const Q: usize>(
+        mut self,
+        lobes: impl LobeAt<L>,
+    ) where
+        U: Real,
+        L: InColumns<U, N, P, Q>,
+    {
+        for i in 0..self.wi.x.len() {
+            let (wo, u) = (self.wo.get_as(i), triple(self.u, i));
+            let sample = lobes.at(i).sample(wo, u, self.transport);
+            self.wi.set_from(i, sample.map_or(Vec3::ZERO, |s| s.wi));
+        }
+    }
 }
 
 impl<T: Real> SampleWi<'_, T> {
@@ -306,12 +372,12 @@ impl<T: Real> SampleWi<'_, T> {
 
 /// The three values at `i`.
 #[inline(always)]
-fn triple<T: Real, U: Real>([a, b, c]: [&[T]; 3], i: usize) -> [U; 3] {
+pub(super) fn triple<T: Real, U: Real>([a, b, c]: [&[T]; 3], i: usize) -> [U; 3] {
     [convert(a[i]), convert(b[i]), convert(c[i])]
 }
 
 #[inline(always)]
-fn range<T>([a, b, c]: [&[T]; 3], start: usize, end: usize) -> [&[T]; 3] {
+pub(super) fn range<T>([a, b, c]: [&[T]; 3], start: usize, end: usize) -> [&[T]; 3] {
     let n = end - start;
     [
         &a[start..end][..n],

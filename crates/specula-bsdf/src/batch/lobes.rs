@@ -1,5 +1,6 @@
 //! What the batch functions take in place of one lobe.
 
+use super::columns::{InColumns, LobeAt};
 use super::level::Arithmetic;
 use super::recast::{Recast, convert, recast};
 use super::slices::LengthMismatch;
@@ -34,6 +35,14 @@ pub trait Lobes<T: Real> {
 pub trait Kernel {
     /// Runs them; always inlined.
     fn run<U: Real, F: Family<U>>(self, family: F);
+
+    /// Runs them over lobes that are put into columns first; always inlined.
+    fn run_in_columns<U, L, const N: usize, const P: usize, const Q: usize>(
+        self,
+        lobes: impl LobeAt<L>,
+    ) where
+        U: Real,
+        L: InColumns<U, N, P, Q>;
 }
 
 /// A lobe for every element.

@@ -30,8 +30,8 @@
 //! # What goes in
 //!
 //! * One lobe for all elements, or [`PerElement`] alphas for rough metal and rough glass, or
-//!   [`PerElementMetal`] alphas and colours, or [`PerElementBase`] colours under a coat, or [`Any`]
-//!   lobe of the caller's own. Or no lobe:
+//!   [`PerElementMetal`] alphas and colours, or [`PerElementBase`] colours under a coat, or [`Each`]
+//!   its own [`Gltf`](crate::bsdf::Gltf) or [`Principled`](crate::bsdf::Principled), or [`Any`] lobe of the caller's own. Or no lobe:
 //!   [`Level::sample_reflection`], [`Level::reflection_pdf`]. Rough metal with all bounces:
 //!   [`Level::eval_pdf_random`], [`Level::sample_random`], walks in batches.
 //! * Or a [`Lobe`](crate::bsdf::Lobe) whose kind is known when the program runs: [`LobeBatches`].
@@ -53,6 +53,8 @@
 //!   `Exact`, which choose a branch first.
 //! * Coats over diffuse bases and plastics of GGX, whose tables are a row over the cosine for each batch, of which values
 //!   are selected, not addressed. Exact at every level.
+//! * glTF's material without coat, sheen and transmission, and Mitsuba's principled without transmission. Of glTF's some 110
+//!   instructions a direction are look-ups of tables, one by one. Exact at every level.
 //! * Compensated lobes look up tables: plain loops of the scalar code, exact at every level. Of the 3900
 //!   instructions of a compensated metal's value 3500 are those of its loss.
 //!
@@ -73,6 +75,7 @@
 
 mod alphas;
 mod coats;
+mod columns;
 mod functions;
 mod kernels;
 mod level;
@@ -87,6 +90,8 @@ mod visible;
 
 pub use alphas::Alphas;
 pub use coats::PerElementBase;
+pub use columns::Each;
+pub(crate) use columns::InColumns;
 pub use level::Level;
 pub use lobe_batches::LobeBatches;
 pub use lobes::{Any, Lobes};

@@ -199,6 +199,16 @@ impl<T: Real> Directions<&mut [T]> {
         }
     }
 
+    /// To read what was written.
+    #[inline(always)]
+    pub(super) fn as_read(&self) -> Directions<&[T]> {
+        Directions {
+            x: &*self.x,
+            y: &*self.y,
+            z: &*self.z,
+        }
+    }
+
     #[inline(always)]
     pub(super) fn set_from<U: Real>(&mut self, i: usize, v: Vec3<U>) {
         let v = v.cast();

@@ -1,6 +1,7 @@
 //! Metals: rough and smooth.
 
 use super::{Bsdf, BsdfSample, Event, Transport};
+use crate::alpha::Alpha;
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Rgb, Vec3, vec3};
 use crate::ndf::{Ggx, Masking, Ndf};
@@ -32,6 +33,12 @@ impl<T: Real, N: VisibleNormals<T>> RoughConductor<T, N> {
             sampler: Sampler::default(),
             masking: Masking::default(),
         }
+    }
+
+    /// Its alphas.
+    #[inline(always)]
+    pub fn alpha(&self) -> Alpha<T> {
+        self.ndf.alpha()
     }
 
     /// The same metal with another masking.

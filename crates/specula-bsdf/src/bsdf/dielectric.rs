@@ -1,6 +1,7 @@
 //! A rough dielectric interface: reflection and refraction (Walter et al. 2007).
 
 use super::{Bsdf, BsdfSample, Event, Tints, Transport};
+use crate::alpha::Alpha;
 use crate::fresnel::{dielectric, refract, refraction};
 use crate::math::{Real, Rgb, Vec3, vec3};
 use crate::ndf::{Ggx, Masking};
@@ -68,6 +69,18 @@ impl<T: Real, N: VisibleNormals<T>> RoughDielectric<T, N> {
             masking: Masking::default(),
             tints: Tints::WHITE,
         }
+    }
+
+    /// Its alphas.
+    #[inline(always)]
+    pub fn alpha(&self) -> Alpha<T> {
+        self.ndf.alpha()
+    }
+
+    /// The index of refraction that it was made with.
+    #[inline(always)]
+    pub fn eta(&self) -> T {
+        self.eta
     }
 
     /// The same interface with another masking.

@@ -109,7 +109,7 @@ impl<T: Real> Bsdf<T> for DiffuseTransmission<T> {
 impl<T: Real> BsdfSample<T> {
     /// A reflected sample; `None` below the horizon or where its density is not positive and finite.
     #[inline(always)]
-    pub(super) fn reflected(wi: Vec3<T>, weight: Rgb<T>, pdf: T) -> Option<Self> {
+    pub(crate) fn reflected(wi: Vec3<T>, weight: Rgb<T>, pdf: T) -> Option<Self> {
         (wi.z > T::ZERO && pdf > T::ZERO && pdf <= T::MAX).then_some(Self {
             wi,
             weight,

@@ -127,9 +127,9 @@ macro_rules! lobe_table {
             /// See [`Plastic`], with Beckmann's normals.
             PlasticBeckmann: $crate::bsdf::Plastic<T, $crate::ndf::Beckmann<T>>, reflects, scalar, "bsdf/plastic";
             /// See [`Principled`].
-            Principled: $crate::bsdf::Principled<T>, depends, scalar, "bsdf/principled_solid";
+            Principled: $crate::bsdf::Principled<T>, depends, closed, "bsdf/principled_solid";
             /// See [`Gltf`].
-            Gltf: $crate::bsdf::Gltf<T>, depends, scalar, "bsdf/gltf";
+            Gltf: $crate::bsdf::Gltf<T>, depends, closed, "bsdf/gltf";
         }
     };
 }

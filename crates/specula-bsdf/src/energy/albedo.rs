@@ -96,9 +96,15 @@ pub(super) fn table_index(distribution: TabulatedNdf, masking: Masking) -> usize
 /// The energy that single scattering off one surface loses: the tables at its alphas.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss<T> {
+    directional: DirectionalLoss<T>,
+    average: T,
+}
+
+/// The same without its average.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct DirectionalLoss<T> {
     table: u8,
     interpolation: Interpolation<T>,
-    average: T,
 }
 
 /// Splines at the alphas of a surface.
@@ -119,35 +125,21 @@ impl<T: Real> Loss<T> {
     /// The loss of a distribution of normals.
     #[inline]
     pub fn new<N: Tabulated<T>>(ndf: N, masking: Masking) -> Self {
-        #[allow(clippy::cast_possible_truncation, reason = "an index below 4")]
-        let table = table_index(N::TABLES, masking) as u8;
-        let tables = &TABLES[usize::from(table)];
-        let Alpha { x, y } = ndf.alpha();
-        let stencil = |alpha, count| Cubic::cubic(alpha_coordinate(alpha), count);
-        let (interpolation, root) = if x == y {
-            let stencil = stencil(x, ISOTROPIC_ALPHAS);
-            let root = stencil.sum(|i| T::of(f64::from(tables.isotropic_average[i])));
-            (Interpolation::Isotropic { alpha: x, stencil }, root)
-        } else {
-            let alpha_values = AlphaPair::new(x, y);
-            let (low, high) = alpha_values.ordered();
-            let low = stencil(low, ANISOTROPIC_ALPHAS);
-            let high = stencil(high, ANISOTROPIC_ALPHAS);
-            let averages = &tables.anisotropic_average;
-            let root = low.sum(|i| high.sum(|j| T::of(f64::from(averages[pair(i, j).0]))));
-            (
-                Interpolation::Anisotropic {
-                    alpha_values,
-                    low,
-                    high,
-                },
-                root,
-            )
+        let directional = DirectionalLoss::new(ndf, masking);
+        let tables = &TABLES[usize::from(directional.table)];
+        let root = match &directional.interpolation {
+            Interpolation::Isotropic { stencil, .. } => {
+                stencil.sum(|i| T::of(f64::from(tables.isotropic_average[i])))
+            }
+            Interpolation::Anisotropic { low, high, .. } => {
+                let averages = &tables.anisotropic_average;
+                low.sum(|i| high.sum(|j| T::of(f64::from(averages[pair(i, j).0]))))
+            }
         };
+        let Alpha { x, y } = ndf.alpha();
         let scaled = root * average_scale(x, y);
         Self {
-            table,
-            interpolation,
+            directional,
             average: (scaled * scaled).within(T::of(1e-18), T::ONE),
         }
     }
@@ -157,6 +149,61 @@ impl<T: Real> Loss<T> {
     /// * `wo`: unit, local frame.
     #[inline]
     pub fn directional(&self, wo: Vec3<T>) -> T {
+        self.directional.at(wo)
+    }
+
+    /// `1 - E_avg`, in `(0, 1]`.
+    #[inline(always)]
+    pub fn average(&self) -> T {
+        self.average
+    }
+}
+
+impl<T: Real> DirectionalLoss<T> {
+    /// That of a distribution of normals.
+    #[inline]
+    pub(crate) fn new<N: Tabulated<T>>(ndf: N, masking: Masking) -> Self {
+        #[allow(clippy::cast_possible_truncation, reason = "an index below 4")]
+        let table = table_index(N::TABLES, masking) as u8;
+        let Alpha { x, y } = ndf.alpha();
+        let stencil = |alpha, count| Cubic::cubic(alpha_coordinate(alpha), count);
+        let interpolation = if x == y {
+            let stencil = stencil(x, ISOTROPIC_ALPHAS);
+            Interpolation::Isotropic { alpha: x, stencil }
+        } else {
+            let alpha_values = AlphaPair::new(x, y);
+            let (low, high) = alpha_values.ordered();
+            Interpolation::Anisotropic {
+                alpha_values,
+                low: stencil(low, ANISOTROPIC_ALPHAS),
+                high: stencil(high, ANISOTROPIC_ALPHAS),
+            }
+        };
+        Self {
+            table,
+            interpolation,
+        }
+    }
+
+    /// Where a cosine lies in the table of an isotropic surface: what a batch computes in vectors.
+    #[inline(always)]
+    pub(crate) fn place(alpha: T, cosine: T) -> (T, [T; 4]) {
+        Cubic::cubic_numbers(cosine_coordinate(cosine, alpha), ISOTROPIC_COSINES)
+    }
+
+    /// [`at`](Self::at), by the cosine's [`place`](Self::place); `None` for an anisotropic surface.
+    #[inline(always)]
+    pub(crate) fn at_place(&self, place: &Cubic<T>) -> Option<T> {
+        let Interpolation::Isotropic { stencil, .. } = &self.interpolation else {
+            return None;
+        };
+        let root = isotropic_at(&TABLES[usize::from(self.table)].isotropic, stencil, place);
+        Some((root * root).at_most(T::ONE))
+    }
+
+    /// As [`Loss::directional`].
+    #[inline]
+    pub(crate) fn at(&self, wo: Vec3<T>) -> T {
         let cosine = wo.z.abs().at_most(T::ONE);
         let tables = &TABLES[usize::from(self.table)];
         let root = match &self.interpolation {
@@ -176,12 +223,6 @@ impl<T: Real> Loss<T> {
         };
         (root * root).at_most(T::ONE)
     }
-
-    /// `1 - E_avg`, in `(0, 1]`.
-    #[inline(always)]
-    pub fn average(&self) -> T {
-        self.average
-    }
 }
 
 /// `sqrt(1 - E)` of an isotropic table at the coordinate of a cosine.
@@ -191,8 +232,18 @@ pub fn isotropic<T: Real>(
     alpha: &Cubic<T>,
     m: T,
 ) -> T {
-    let cosine = Cubic::cubic(m, ISOTROPIC_COSINES);
-    alpha.sum(|i| cosine.sum(|k| T::of(f64::from(table[i][k]))))
+    isotropic_at(table, alpha, &Cubic::cubic(m, ISOTROPIC_COSINES))
+}
+
+#[inline(always)]
+fn isotropic_at<T: Real>(
+    table: &[[f32; ISOTROPIC_COSINES]; ISOTROPIC_ALPHAS],
+    alpha: &Cubic<T>,
+    cosine: &Cubic<T>,
+) -> T {
+    alpha.sum_of(table, |row| {
+        cosine.sum_of(row, |&value| T::of(f64::from(value)))
+    })
 }
 
 /// `sqrt(1 - E)` of an anisotropic table at the coordinates of an azimuth and a cosine.

@@ -23,6 +23,13 @@ impl<T: Real> Spline<T, 4> {
     /// The coefficients about `x`, clamped to `[0, 1]`, among `count >= 4` coefficients.
     #[inline(always)]
     pub fn cubic(x: T, count: usize) -> Self {
+        let (first, weights) = Self::cubic_numbers(x, count);
+        Self::of_numbers(first, weights)
+    }
+
+    /// The first index and the weights of [`cubic`](Self::cubic), as numbers of a batch.
+    #[inline(always)]
+    pub(crate) fn cubic_numbers(x: T, count: usize) -> (T, [T; 4]) {
         let (first, t) = cell(x, count - 3);
         let u = T::ONE - t;
         let (t2, u2) = (t * t, u * u);
@@ -33,7 +40,7 @@ impl<T: Real> Spline<T, 4> {
             two_thirds - u2 * (T::ONE - T::HALF * u),
             t2 * t * sixth,
         ];
-        Self { first, weights }
+        (first, weights)
     }
 }
 
@@ -44,26 +51,33 @@ impl<T: Real> Spline<T, 3> {
         let (first, t) = cell(x, count - 2);
         let u = T::ONE - t;
         let weights = [T::HALF * u * u, T::HALF + t * u, T::HALF * t * t];
-        Self { first, weights }
+        Self::of_numbers(first, weights)
     }
 }
 
-/// The interval among `cells` that holds `x`, and the place in it.
+/// The index of the interval among `cells` that holds `x`, and the place in it.
 #[inline(always)]
-fn cell<T: Real>(x: T, cells: usize) -> (u16, T) {
+fn cell<T: Real>(x: T, cells: usize) -> (T, T) {
     #[allow(clippy::cast_precision_loss, reason = "some dozen cells")]
     let end = T::of(cells as f64);
     let place = (x * end).within(T::ZERO, end);
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped to the axis above; NaN becomes 0"
-    )]
-    let first = (place.to_f64() as usize).min(cells - 1) as u16;
-    (first, place - T::of(f64::from(first)))
+    let first = place.floor_of_small().at_most(end - T::ONE);
+    (first, place - first)
 }
 
 impl<T: Real, const N: usize> Spline<T, N> {
+    /// * `first`: an index.
+    #[inline(always)]
+    pub(crate) fn of_numbers(first: T, weights: [T; N]) -> Self {
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "an index of an axis"
+        )]
+        let first = first.truncated() as u16;
+        Self { first, weights }
+    }
+
     /// Index of the first coefficient.
     #[inline(always)]
     pub fn first(&self) -> usize {
@@ -82,6 +96,20 @@ impl<T: Real, const N: usize> Spline<T, N> {
         let mut sum = T::ZERO;
         for (k, &weight) in self.weights.iter().enumerate() {
             sum += weight * value(self.first() + k);
+        }
+        sum
+    }
+
+    /// [`sum`](Self::sum) over the elements of an array, which are checked to be there once.
+    #[inline(always)]
+    pub(crate) fn sum_of<E, const M: usize>(&self, all: &[E; M], value: impl Fn(&E) -> T) -> T {
+        let mut sum = T::ZERO;
+        let Some(near) = all[self.first()..].first_chunk::<N>() else {
+            // A place on another axis.
+            return sum;
+        };
+        for (element, &weight) in near.iter().zip(&self.weights) {
+            sum += weight * value(element);
         }
         sum
     }

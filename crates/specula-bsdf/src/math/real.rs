@@ -129,6 +129,17 @@ pub trait Real:
     #[doc(hidden)]
     fn of_integer(i: i32) -> Self;
 
+    /// Largest integer at most `self`, which is in `[0, 2^22]`: by sums, as a conversion to an integer that saturates is
+    /// one element at a time in some batches, and [`floor`](Real::floor) a call on some machines.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn floor_of_small(self) -> Self {
+        // Numbers from here on have no fractions.
+        let shift = Self::ONE / Self::EPSILON;
+        let nearest = (self + shift) - shift;
+        nearest - Self::select(nearest > self, Self::ONE, Self::ZERO)
+    }
+
     /// `self`, or `bound` where `self` is smaller or NaN.
     #[inline(always)]
     fn at_least(self, bound: Self) -> Self {
@@ -296,6 +307,19 @@ impl_real!(f64, turns::sin_cos_f64, exponential::exp_f64, 53, sqrt floor exp exp
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn small_numbers_are_rounded_down() {
+        for i in 0..=50_000_u16 {
+            let x = f32::from(i) * 0.004_1;
+            let both = [x, x.next_up(), x.next_down().max(0.0), x.round()];
+            for x in both {
+                assert_eq!(x.floor_of_small(), x.floor(), "{x}");
+                let x = f64::from(x);
+                assert_eq!(x.floor_of_small(), x.floor(), "{x}");
+            }
+        }
+    }
 
     #[test]
     fn bounds_take_the_place_of_nan() {

@@ -76,12 +76,18 @@ fn slope_along(cosine: f64, sine: f64, u: f64) -> f64 {
 }
 
 /// Root of `C(x)/C(a) = u`, `C(x) = erfc(-x)/2 + tan theta exp(-x^2) / (2 sqrt pi)`, `x <= a`.
+///
+/// The iteration starts between the roots of its two limits, the normal distribution of a view from straight above and
+/// the Rayleigh distribution of one along the surface.
 fn slope_from_above(tangent: f64, u: f64) -> f64 {
     let a = 1.0 / tangent;
     let cumulative = |x: f64| 0.5 * libm::erfc(-x) + tangent * (-x * x).exp() / (2.0 * SQRT_PI);
     let target = u * cumulative(a);
     let (low, high) = (-9.0_f64, a.min(9.0));
-    newton_in_bracket(low, high, |x| {
+    let normal = erf_inverse_estimate(2.0 * u - 1.0);
+    let rayleigh = -(-u.max(1e-30).ln()).max(0.0).sqrt();
+    let start = (normal * a + rayleigh) / (a + 1.0);
+    newton_in_bracket([low, start, high], |x| {
         let slope = (1.0 - tangent * x) * (-x * x).exp() / SQRT_PI;
         (cumulative(x) - target, slope)
     })
@@ -96,7 +102,9 @@ fn excess_from_below(b: f64, u: f64) -> f64 {
     // A zero u would mean an endless tail.
     let u = u.max(1e-16);
     if b > 25.0 {
-        let y = newton_in_bracket(0.0, 60.0, |w| ((1.0 + w) * (-w).exp() - u, -w * (-w).exp()));
+        let y = newton_in_bracket([0.0, 30.0, 60.0], |w| {
+            ((1.0 + w) * (-w).exp() - u, -w * (-w).exp())
+        });
         return y / (2.0 * b);
     }
     let scaled = |y: f64| {
@@ -107,16 +115,19 @@ fn excess_from_below(b: f64, u: f64) -> f64 {
     let target = u * scaled(0.0);
     // exp(-y^2) alone bounds the tail at 6.5, exp(-2 b y) at 45 / (2 b): below 26 - b, so that erfcx stays finite.
     let high = (6.5_f64).min(45.0 / (2.0 * b).max(1e-3)).max(0.02);
-    newton_in_bracket(0.0, high, |y| {
+    newton_in_bracket([0.0, 0.5 * high, high], |y| {
         (scaled(y) - target, -y * (-y * y - 2.0 * b * y).exp())
     })
 }
 
-/// Root of a monotone function in `[low, high]`, by Newton's steps with bisection where they leave
+/// Root of a monotone function in `[low, high]`, by Newton's steps from `start` with bisection where they leave
 /// the bracket; the end nearer to the root where there is none.
-fn newton_in_bracket(low: f64, high: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
+///
+/// A step below 1e-8 is the last one: what it leaves is as small as its square. Smaller steps than that go on for long, as
+/// rounding makes them.
+fn newton_in_bracket([low, start, high]: [f64; 3], f: impl Fn(f64) -> (f64, f64)) -> f64 {
     let (mut low, mut high) = (low, high);
-    let mut x = 0.5 * (low + high);
+    let mut x = start.clamp(low, high);
     for _ in 0..64 {
         let (value, slope) = f(x);
         // The sign of the slope is the function's: it is monotone.
@@ -126,12 +137,10 @@ fn newton_in_bracket(low: f64, high: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 
             low = x;
         }
         let step = x - value / slope;
-        let next = if step > low && step < high {
-            step
-        } else {
-            0.5 * (low + high)
-        };
-        if (next - x).abs() <= 1e-14 * (1.0 + x.abs()) {
+        let is_within = step > low && step < high;
+        let next = if is_within { step } else { 0.5 * (low + high) };
+        let least = if is_within { 1e-8 } else { 1e-14 };
+        if (next - x).abs() <= least * (1.0 + x.abs()) {
             return next;
         }
         x = next;
@@ -141,12 +150,28 @@ fn newton_in_bracket(low: f64, high: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 
 
 /// Inverse of the error function on `(-1, 1)`; clamped to 6 in absolute value.
 ///
-/// Source: the start is Giles 2010, Approximating the erfinv function, table 5 (f32 accuracy); two
-/// Newton steps bring it to f64's.
+/// Two Newton steps take the [estimate](erf_inverse_estimate) to the accuracy of f64.
 fn erf_inverse(x: f64) -> f64 {
     let x = x.clamp(-1.0 + 1e-16, 1.0 - 1e-16);
+    let mut y = erf_inverse_estimate(x);
+    for _ in 0..2 {
+        let error = if y < 0.0 {
+            libm::erfc(-y) - (1.0 + x)
+        } else {
+            (1.0 - x) - libm::erfc(y)
+        };
+        y -= error * SQRT_PI * 0.5 * (y * y).exp();
+    }
+    y.clamp(-6.0, 6.0)
+}
+
+/// The same to the accuracy of f32.
+///
+/// Source: Giles 2010, Approximating the erfinv function, table 5.
+fn erf_inverse_estimate(x: f64) -> f64 {
+    let x = x.clamp(-1.0 + 1e-16, 1.0 - 1e-16);
     let w = -((1.0 - x) * (1.0 + x)).ln();
-    let start = if w < 5.0 {
+    let factor = if w < 5.0 {
         polynomial(
             w - 2.5,
             &[
@@ -177,16 +202,7 @@ fn erf_inverse(x: f64) -> f64 {
             ],
         )
     };
-    let mut y = start * x;
-    for _ in 0..2 {
-        let error = if y < 0.0 {
-            libm::erfc(-y) - (1.0 + x)
-        } else {
-            (1.0 - x) - libm::erfc(y)
-        };
-        y -= error * SQRT_PI * 0.5 * (y * y).exp();
-    }
-    y.clamp(-6.0, 6.0)
+    factor * x
 }
 
 fn polynomial(x: f64, coefficients: &[f64]) -> f64 {

@@ -4,8 +4,9 @@
 use specula_bsdf::batch::Directions;
 use specula_bsdf::bsdf::{
     CoatLayer, CoatScattering, CoatedDiffuse, Compensated, CompensatedDielectric,
-    DiffuseTransmission, Eon, Lambert, Plastic, RoughConductor, RoughDielectric, SmoothConductor,
-    SmoothDielectric, ThinDielectric,
+    DiffuseTransmission, Eon, Gltf, GltfParameters, Lambert, Plastic, Principled,
+    PrincipledParameters, RoughConductor, RoughDielectric, SmoothConductor, SmoothDielectric,
+    ThinDielectric,
 };
 use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, F82Tint, Reflectance, Schlick};
@@ -69,6 +70,20 @@ impl<T: Real> Elements<T> {
             }
         }
         self
+    }
+
+    /// One of them.
+    pub(crate) fn only(&self, i: usize) -> Self {
+        let directions = |d: &Directions<Vec<T>>| Directions {
+            x: vec![d.x[i]],
+            y: vec![d.y[i]],
+            z: vec![d.z[i]],
+        };
+        Self {
+            wo: directions(&self.wo),
+            wi: directions(&self.wi),
+            u: self.u.each_ref().map(|u| vec![u[i]]),
+        }
     }
 
     pub(crate) fn u(&self) -> [&[T]; 3] {
@@ -176,6 +191,12 @@ macro_rules! for_every_lobe {
             let plastic = make::plastic::<$t>($alpha).with_sampler(sampler);
             $each!("Plastic", plastic);
         }
+        for gltf in make::gltfs::<$t>($alpha) {
+            $each!("Gltf", gltf);
+        }
+        for principled in make::principleds::<$t>($alpha) {
+            $each!("Principled", principled);
+        }
         $each!("CoatedDiffuse", make::coated_diffuse::<$t>(None));
         $each!("CoatedDiffuse", make::lossy_coat::<$t>(None));
         $each!("Plastic", make::smooth_plastic::<$t>());
@@ -239,6 +260,108 @@ pub(crate) fn plastic<T: Real>(alpha: [f32; 2]) -> Plastic<T> {
 pub(crate) fn smooth_plastic<T: Real>() -> Plastic<T> {
     let [diffuse, specular] = [colour(0.8, 0.5, 0.2), colour(1.0, 0.9, 0.7)];
     Plastic::smooth(single(1.9), diffuse, specular, false)
+}
+
+/// glTF's materials that are vectors, and the forms of it that are computed one by one.
+pub(crate) fn gltfs<T: Real>([along, across]: [f32; 2]) -> [Gltf<T>; 8] {
+    // Alphas along and across are `a + (1 - a) s^2` and `a`.
+    let least = along.min(across).min(1.0);
+    let strength = ((along.max(across).min(1.0) - least) / (1.0 - least).max(1e-3)).sqrt();
+    let mixed = GltfParameters::<T> {
+        base_colour: colour(0.9, 0.5, 0.1),
+        metallic: single(0.4),
+        roughness: single(least.sqrt()),
+        anisotropy: single(strength),
+        specular: single(0.8),
+        specular_colour: colour(1.0, 0.7, 0.4),
+        ..GltfParameters::default()
+    };
+    [
+        mixed,
+        GltfParameters {
+            metallic: T::ONE,
+            compensated: true,
+            ..mixed
+        },
+        GltfParameters {
+            compensated: true,
+            ..mixed
+        },
+        GltfParameters {
+            metallic: T::ZERO,
+            anisotropy: T::ZERO,
+            ..mixed
+        },
+        GltfParameters {
+            metallic: T::ZERO,
+            base_colour: Rgb::BLACK,
+            ..mixed
+        },
+        GltfParameters {
+            clearcoat: T::HALF,
+            ..mixed
+        },
+        GltfParameters {
+            sheen_colour: colour(0.3, 0.2, 0.5),
+            sheen_roughness: T::HALF,
+            ..mixed
+        },
+        GltfParameters {
+            transmission: T::HALF,
+            volume: true,
+            ..mixed
+        },
+    ]
+    .map(Gltf::new)
+}
+
+/// `principled` that is vectors, and the forms of it that are computed one by one.
+pub(crate) fn principleds<T: Real>([along, across]: [f32; 2]) -> [Principled<T>; 7] {
+    // Alphas are `a / q` and `a q`, `q^2 = 1 - 0.9 anisotropic`.
+    let (least, most) = (along.min(across).min(1.0), along.max(across).min(1.0));
+    let mixed = PrincipledParameters::<T> {
+        base_colour: colour(0.9, 0.5, 0.1),
+        roughness: single((least * most).sqrt().sqrt()),
+        anisotropic: single((1.0 - least / most) / 0.9),
+        metallic: single(0.4),
+        spec_tint: single(0.3),
+        sheen: single(0.6),
+        sheen_tint: T::HALF,
+        flatness: single(0.4),
+        clearcoat: T::HALF,
+        clearcoat_gloss: single(0.7),
+        ..PrincipledParameters::default()
+    };
+    let simple = PrincipledParameters {
+        base_colour: mixed.base_colour,
+        roughness: mixed.roughness,
+        ..PrincipledParameters::default()
+    };
+    [
+        mixed,
+        simple,
+        PrincipledParameters {
+            metallic: T::ONE,
+            ..simple
+        },
+        PrincipledParameters {
+            base_colour: Rgb::BLACK,
+            ..mixed
+        },
+        PrincipledParameters {
+            outside: false,
+            ..mixed
+        },
+        PrincipledParameters {
+            spec_trans: T::HALF,
+            ..mixed
+        },
+        PrincipledParameters {
+            thin: true,
+            ..mixed
+        },
+    ]
+    .map(Principled::new)
 }
 
 /// Every model of energy compensation.

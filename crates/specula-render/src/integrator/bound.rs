@@ -1,16 +1,19 @@
-//! Vertices of a batch whose lobes are bound, evaluated and sampled one after the other: those with textures, bump
-//! maps, mixed materials, and lobes that batches do not know.
+//! Vertices of a batch whose lobes are bound one after the other: those with textures, bump maps, mixed materials, and lobes
+//! that batches do not know. Lobes are evaluated and sampled one after the other, too, but for kinds that are gathered
+//! (`own_lobes`).
 //!
 //! All else of them is done in batches: random numbers, lights, shadow rays, roulette. Frames come from the batch where
 //! surfaces are as their meshes say, and from [`PathTracer::shading_point`] where they are bent.
 
 use core::ops::Range;
 
+use specula_bsdf::batch::SampleOutcome;
 use specula_bsdf::bsdf::Lobe;
 use specula_bsdf::hair::Hair;
 use specula_bsdf::math::Stream;
 use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
 
+use super::own_lobes::OwnLobes;
 use super::path_states::PathStates;
 use super::vertex_batch::{self, LightSamples, ScatterSamples, Surfaces, Vectors, VertexBatch};
 use super::wavefront::{MaterialRun, RayQueue, Wavefront, index};
@@ -27,6 +30,10 @@ use crate::sampler::Sampler;
 /// What a vertex has of its own.
 pub(super) struct BoundVertex {
     lobe: BoundLobe,
+    /// That of the lobe.
+    material: u32,
+    /// Whether its lobe is among the gathered ones.
+    is_gathered: bool,
     /// As of [`ShadingPoint`].
     softness: Option<Softness>,
     opaque: bool,
@@ -72,6 +79,8 @@ impl BoundVertex {
                 PointLobe::Measured(_) => BoundLobe::Measured(material),
                 PointLobe::Hair(hair) => BoundLobe::Hair(hair),
             },
+            material,
+            is_gathered: false,
             softness: None,
             opaque,
             is_black,
@@ -185,6 +194,7 @@ impl PathTracer<'_> {
             runs,
             batch,
             bound,
+            own_lobes,
             tally,
             ..
         } = wavefront;
@@ -192,6 +202,7 @@ impl PathTracer<'_> {
         let scene = self.scene;
         let from = (&**paths, &**live, &hits[..]);
         bound.clear();
+        own_lobes.clear();
         for run in runs.iter_mut() {
             let count = run.range().len() as u64;
             if let Some(sides) = scene.materials.plain(run.key / 2) {
@@ -217,7 +228,6 @@ impl PathTracer<'_> {
                 }
                 continue;
             }
-            counts.bound += count;
             run.first_bound = bound.len();
             let is_bent = scene.materials.is_bent(run.key / 2);
             for i in run.range() {
@@ -225,11 +235,23 @@ impl PathTracer<'_> {
                     continue;
                 };
                 let s = &mut batch.surfaces;
-                bound.push(if is_bent {
+                let mut vertex = if is_bent {
                     self.bind_bent(s, i, &arrival, depth)
                 } else {
                     self.bind_textured(s, i, &arrival, (run.key / 2, depth))
-                });
+                };
+                if let BoundLobe::Listed(lobe) = &vertex.lobe {
+                    let material = vertex.material;
+                    let differs_in_alphas = scene.materials.differs_in_alphas(material);
+                    let material = differs_in_alphas.then_some(material);
+                    vertex.is_gathered = own_lobes.push(i, lobe, material);
+                }
+                if vertex.is_gathered {
+                    counts.batched += 1;
+                } else {
+                    counts.bound += 1;
+                }
+                bound.push(vertex);
             }
         }
     }
@@ -325,7 +347,7 @@ impl PathTracer<'_> {
     pub(super) fn evaluate_bound(
         &self,
         (paths, path_indices): (&PathStates, &[u32]),
-        (runs, bound): (&[MaterialRun], &[BoundVertex]),
+        (runs, bound, own_lobes): (&[MaterialRun], &[BoundVertex], &mut OwnLobes),
         (s, throughput): (&Surfaces, &Vectors),
         a: &mut LightSamples,
         [depth, nth]: [u32; 2],
@@ -341,10 +363,15 @@ impl PathTracer<'_> {
                 };
             }
             vertex_batch::lights_to_local(start, end, s, a);
+        }
+        own_lobes.evaluate(s, a);
+        for run in self.bound_runs(runs) {
+            let Range { start, end } = run.range();
             for (i, vertex) in run.bound(bound) {
                 let sampler = &paths.samplers[index(path_indices[i])];
                 let stream = || sampler.stream(depth, estimator::stream_of_candidate(nth));
                 match &vertex.lobe {
+                    _ if vertex.is_gathered => {}
                     BoundLobe::Listed(lobe) => evaluate(lobe, s, a, i, stream),
                     BoundLobe::Hair(hair) => evaluate(hair, s, a, i, stream),
                     BoundLobe::Measured(material) => {
@@ -366,11 +393,12 @@ impl PathTracer<'_> {
     pub(super) fn sample_bound(
         &self,
         (paths, path_indices): (&PathStates, &[u32]),
-        (runs, bound): (&[MaterialRun], &[BoundVertex]),
+        (runs, bound, own_lobes): (&[MaterialRun], &[BoundVertex], &mut OwnLobes),
         (s, u): (&Surfaces, [&[f32]; 3]),
         scatter: &mut ScatterSamples,
         depth: u32,
     ) -> ScatterCounts {
+        own_lobes.sample(s, u, scatter);
         let mut counts = ScatterCounts::default();
         for (i, vertex) in self.bound_runs(runs).flat_map(|run| run.bound(bound)) {
             if vertex.is_black {
@@ -381,6 +409,7 @@ impl PathTracer<'_> {
             let stream = || sampler.stream(depth, estimator::STREAM_SCATTER);
             let u = u.map(|u| u[i]);
             let is_sampled = match &vertex.lobe {
+                _ if vertex.is_gathered => scatter.outcome[i] != SampleOutcome::Rejected,
                 BoundLobe::Listed(lobe) => sample(lobe, s, scatter, (i, u), stream),
                 BoundLobe::Hair(hair) => sample(hair, s, scatter, (i, u), stream),
                 BoundLobe::Measured(material) => (self.scene.materials.measured(*material))

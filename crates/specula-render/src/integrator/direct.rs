@@ -128,6 +128,7 @@ impl PathTracer<'_> {
             runs,
             batch,
             bound,
+            own_lobes,
             streams,
             ..
         } = wavefront;
@@ -175,7 +176,7 @@ impl PathTracer<'_> {
         }
         self.evaluate_bound(
             (paths, &path_indices[..]),
-            (runs, bound),
+            (runs, bound, own_lobes),
             (s, &scatter.throughput),
             a,
             [depth, nth],

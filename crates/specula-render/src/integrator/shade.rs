@@ -209,6 +209,7 @@ impl PathTracer<'_> {
             runs,
             batch,
             bound,
+            own_lobes,
             tally,
             shared,
             ..
@@ -222,7 +223,8 @@ impl PathTracer<'_> {
         } = &mut **batch;
         let u = [0, 1, 2].map(|k| &random_numbers.values[k][..]);
         let of_paths = (&**paths, &path_indices[..]);
-        let scattered = self.sample_bound(of_paths, (runs, bound), (s, u), scatter, depth);
+        let scattered =
+            self.sample_bound(of_paths, (runs, bound, own_lobes), (s, u), scatter, depth);
         tally.scattered = tally.scattered.and(scattered);
         if let Some(shared) = shared {
             let n = n.min(WAVEFRONT_SIZE);

@@ -12,6 +12,7 @@ use specula_bsdf::math::Stream;
 use specula_bsdf::{Rgb, Vec3};
 
 use super::bound::BoundVertex;
+use super::own_lobes::OwnLobes;
 use super::path_states::PathStates;
 use super::quadrics::VerticesOnQuadrics;
 use super::sharing::{PairBuffers, Shared};
@@ -87,6 +88,8 @@ pub(crate) struct Wavefront {
     pub(super) quadrics: Box<VerticesOnQuadrics>,
     /// Of the runs whose lobes are bound, one after the other.
     pub(super) bound: Vec<BoundVertex>,
+    /// Those of them that are evaluated and sampled at once.
+    pub(super) own_lobes: OwnLobes,
     pub(super) streams: Vec<Stream>,
     /// Shadow rays, with the indices of their vertices.
     pub(super) shadow_rays: Box<RayQueue>,
@@ -178,6 +181,7 @@ impl Wavefront {
             batch: VertexBatch::new(),
             quadrics: Box::new(VerticesOnQuadrics::EMPTY),
             bound: Vec::new(),
+            own_lobes: OwnLobes::default(),
             streams: Vec::new(),
             shadow_rays: RayQueue::new(),
             occluded: Vec::new(),

@@ -9,7 +9,8 @@ use specula_bsdf::fresnel::Reflectance;
 use specula_bsdf::ndf::{Beckmann, Ggx};
 use specula_bsdf::{Alpha, Rgb};
 use specula_scene::scene::{
-    CoatMedium, ColourParam, FloatParam, MaterialKind, MicrofacetDistribution, Roughness,
+    CoatMedium, ColourParam, ConductorFresnel, FloatParam, MaterialKind, MicrofacetDistribution,
+    Roughness,
 };
 use specula_scene::{Energy, scene};
 
@@ -167,6 +168,28 @@ pub(super) fn lobe(
         // Measured ones and hair are no lobes of the list.
         MaterialKind::Mix { .. } | MaterialKind::Sided(_) => black(),
         MaterialKind::Interface | MaterialKind::Measured(_) | MaterialKind::Hair(_) => black(),
+    }
+}
+
+/// Whether lobes of a material differ in their alphas alone, from point to point and by normal maps, where they are rough:
+/// metals and glass of one colour.
+pub(super) fn differs_in_alphas(kind: &MaterialKind) -> bool {
+    let is_value = |colour: &ColourParam| matches!(colour, ColourParam::Value(_));
+    match kind {
+        MaterialKind::Conductor { fresnel, tint, .. } => {
+            let is_one_metal = match fresnel {
+                ConductorFresnel::Index { eta, k } => is_value(eta) && is_value(k),
+                ConductorFresnel::Reflectance(c) | ConductorFresnel::Schlick(c) => is_value(c),
+                ConductorFresnel::Mirror => true,
+            };
+            is_one_metal && is_value(tint)
+        }
+        MaterialKind::Dielectric {
+            reflection_tint,
+            transmission_tint,
+            ..
+        } => is_value(reflection_tint) && is_value(transmission_tint),
+        _ => false,
     }
 }
 

@@ -80,6 +80,9 @@ macro_rules! functions {
         /// Whether [`eval_pdf`] and [`sample`] know a lobe.
         pub(crate) fn is_batched(lobe: &Lobe<f32>) -> bool {
             match lobe {
+                // A sample's index of refraction is that of the lobe's inside; batches do not return it.
+                Lobe::Gltf(gltf) if gltf.transmits() => false,
+                Lobe::Principled(principled) if principled.transmits() => false,
                 $(Lobe::$name(_) => is_batched!($batch),)*
             }
         }

@@ -72,6 +72,8 @@ pub(crate) struct Material {
     coloured_base: Option<ColouredBase>,
     /// Whether its lobes' x axis does not matter, and its surfaces are as their meshes say.
     pub(crate) takes_any_tangent: bool,
+    /// Whether its lobes differ in their alphas alone, where they are rough.
+    differs_in_alphas: bool,
 }
 
 /// A material of one lobe, on surfaces that are as their meshes say.
@@ -167,6 +169,7 @@ impl Materials {
                 plain: None,
                 coloured_base: ColouredBase::new(&kind, textures, models),
                 takes_any_tangent: false,
+                differs_in_alphas: bind::differs_in_alphas(&kind),
                 constant: (!varies && has_lobe).then(|| {
                     [false, true]
                         .map(|outside| bind::lobe(&kind, textures, &nowhere, outside, models, None))
@@ -244,6 +247,12 @@ impl Materials {
     #[inline]
     pub(crate) fn takes_any_tangent(&self, material: u32) -> bool {
         self.materials[material as usize].takes_any_tangent
+    }
+
+    /// Whether lobes of a material differ in their alphas alone, where they are rough.
+    #[inline]
+    pub(crate) fn differs_in_alphas(&self, material: u32) -> bool {
+        self.materials[material as usize].differs_in_alphas
     }
 
     /// A measured material.

@@ -12,13 +12,14 @@
 //! largest absolute errors at random places with mu above 0.02: 4e-3 (test
 //! `the_gltf_tables_hold_their_bounds`). They are read with a margin of that size, less towards
 //! normal incidence, so that errors cost light rather than make it. `q` of an anisotropic surface is
-//! taken at the alpha along the view.
+//! taken at the alpha along the direction.
 
 use alloc::vec::Vec;
 
 use super::albedo_table::{ALPHAS, MUS, ROUGHNESSES, SCHLICK, SHEEN};
 pub use super::sheen::{LEAST_ROUGHNESS, charlie_f_cos};
-use crate::energy::Loss;
+use crate::energy::albedo::DirectionalLoss;
+use crate::energy::spline::Cubic;
 use crate::energy::stencil::Stencil;
 use crate::math::{Real, Vec3};
 use crate::ndf::{Ggx, Masking, Ndf};
@@ -33,34 +34,82 @@ pub const MARGIN: f64 = 4e-3;
 pub(super) struct LayerAlbedo<T> {
     ggx: Ggx<T>,
     /// `1 - A`.
-    loss: Loss<T>,
-    /// `w f0` and `w (1 - f0)`, of the brightest channel.
-    normal: T,
-    rise: T,
+    loss: DirectionalLoss<T>,
+    /// Where the mean alpha lies in the table of `q`.
+    round: Stencil<T>,
+}
+
+/// What the tables say of a direction.
+#[derive(Clone, Copy)]
+pub(super) struct LookedUp<T> {
+    /// `1 - A`: what white facets lose by scattering once.
+    pub(super) lost: T,
+    pub(super) q: T,
+}
+
+/// How many numbers [`places`] returns.
+pub(super) const PLACES: usize = 10;
+
+/// Where a direction lies in the tables of an isotropic surface: what a batch computes in vectors.
+#[inline(always)]
+pub(super) fn places<T: Real>(alpha: T, w: Vec3<T>) -> [T; PLACES] {
+    let mu = cosine(w);
+    let (first, [a, b, c, d]) = DirectionalLoss::place(alpha, mu);
+    let (of_q, [p, q, r, s]) = Stencil::numbers(mu.sqrt(), MUS);
+    [first, a, b, c, d, of_q, p, q, r, s]
+}
+
+#[inline(always)]
+fn cosine<T: Real>(w: Vec3<T>) -> T {
+    w.z.abs().at_most(T::ONE)
 }
 
 impl<T: Real> LayerAlbedo<T> {
-    /// * `normal`, `grazing`: largest reflectances at normal and at grazing incidence.
     #[inline(always)]
-    pub(super) fn new(ggx: Ggx<T>, normal: T, grazing: T) -> Self {
+    pub(super) fn new(ggx: Ggx<T>) -> Self {
+        let alpha = ggx.alpha();
         Self {
             ggx,
-            loss: Loss::new(ggx, Masking::HeightCorrelated),
-            normal,
-            rise: grazing - normal,
+            loss: DirectionalLoss::new(ggx, Masking::HeightCorrelated),
+            round: Stencil::new(alpha.x.sqrt(), ALPHAS),
         }
     }
 
-    /// `min(1, (1 - E) / B)`: what of the diffuse base is not too much.
+    /// `1 - A`: what white facets lose by scattering once.
     #[inline]
-    pub(super) fn limit(&self, w: Vec3<T>) -> T {
-        let mu = w.z.abs().at_most(T::ONE);
-        let whole = T::ONE - self.loss.directional(w);
-        let q = schlick(self.alpha_along(w), mu) + T::of(MARGIN) * (T::ONE - mu);
-        let above = whole * (self.normal + self.rise * q);
-        let leaves = (T::ONE - above).at_least(T::ZERO);
-        let wanted = T::ONE - self.normal - self.rise * half_vectors(mu);
-        T::select(leaves < wanted, leaves / wanted, T::ONE)
+    pub(super) fn lost(&self, w: Vec3<T>) -> T {
+        self.loss.at(w)
+    }
+
+    /// What the tables say of a direction.
+    #[inline]
+    pub(super) fn look_up(&self, w: Vec3<T>) -> LookedUp<T> {
+        LookedUp {
+            lost: self.lost(w),
+            q: self.q(w, &Stencil::new(cosine(w).sqrt(), MUS)),
+        }
+    }
+
+    /// The same, by the direction's [`places`].
+    #[inline(always)]
+    pub(super) fn look_up_at(&self, places: [T; PLACES], w: Vec3<T>) -> LookedUp<T> {
+        let [first, a, b, c, d, of_q, p, q, r, s] = places;
+        let lost = self.loss.at_place(&Cubic::of_numbers(first, [a, b, c, d]));
+        LookedUp {
+            lost: lost.unwrap_or_else(|| self.lost(w)),
+            q: self.q(w, &Stencil::of_numbers(of_q, [p, q, r, s])),
+        }
+    }
+
+    /// * `mu`: where the cosine lies.
+    #[inline(always)]
+    fn q(&self, w: Vec3<T>, mu: &Stencil<T>) -> T {
+        let alpha = self.ggx.alpha();
+        if alpha.x == alpha.y {
+            schlick_at(&self.round, mu)
+        } else {
+            schlick_at(&Stencil::new(self.alpha_along(w).sqrt(), ALPHAS), mu)
+        }
     }
 
     /// The alpha along the view.
@@ -74,20 +123,42 @@ impl<T: Real> LayerAlbedo<T> {
     }
 }
 
+impl<T: Real> LookedUp<T> {
+    /// `min(1, (1 - E) / B)`: what of the diffuse base is not too much.
+    ///
+    /// * `normal`, `grazing`: the layer's largest reflectances at normal and at grazing incidence.
+    #[inline(always)]
+    pub(super) fn limit(self, [normal, grazing]: [T; 2], w: Vec3<T>) -> T {
+        let mu = cosine(w);
+        let rise = grazing - normal;
+        let whole = T::ONE - self.lost;
+        let q = self.q + T::of(MARGIN) * (T::ONE - mu);
+        let above = whole * (normal + rise * q);
+        let leaves = (T::ONE - above).at_least(T::ZERO);
+        let wanted = T::ONE - normal - rise * half_vectors(mu);
+        T::select(leaves < wanted, leaves / wanted, T::ONE)
+    }
+}
+
 /// `q` of the cosine `mu`.
 #[inline]
 pub fn schlick<T: Real>(alpha: T, mu: T) -> T {
-    let a = Stencil::new(alpha.sqrt(), ALPHAS);
-    let m = Stencil::new(mu.sqrt(), MUS);
-    a.sum(|i| m.sum(|k| entry(SCHLICK[i][k])))
+    let alpha = Stencil::new(alpha.sqrt(), ALPHAS);
+    schlick_at(&alpha, &Stencil::new(mu.sqrt(), MUS))
+}
+
+#[inline(always)]
+fn schlick_at<T: Real>(alpha: &Stencil<T>, mu: &Stencil<T>) -> T {
+    alpha.sum_of(&SCHLICK_SHARES, |row| {
+        mu.sum_of(row, |&q| T::of(f64::from(q)))
+    })
 }
 
 /// `H` of the cosine `mu`: a least-squares fit, absolute error 9e-6.
-#[inline]
+#[inline(always)]
 pub fn half_vectors<T: Real>(mu: T) -> T {
-    [0.008978, -0.043663, 0.086456, -0.079853, 0.028164]
-        .into_iter()
-        .fold(T::ZERO, |sum, c| sum * mu + T::of(c))
+    let [a, b, c, d, e] = [0.008978, -0.043663, 0.086456, -0.079853, 0.028164].map(T::of);
+    (((a * mu + b) * mu + c) * mu + d) * mu + e
 }
 
 /// Where a roughness of sheen, at least 0.07, lies in its table.
@@ -102,7 +173,9 @@ pub fn sheen_stencil<T: Real>(roughness: T) -> Stencil<T> {
 #[inline]
 pub fn sheen<T: Real>(roughness: &Stencil<T>, mu: T) -> T {
     let m = Stencil::new(mu.sqrt(), MUS);
-    let sum = roughness.sum(|i| m.sum(|k| entry(SHEEN[i][k])));
+    let sum = roughness.sum_of(&SHEEN_SHARES, |row| {
+        m.sum_of(row, |&share| T::of(f64::from(share)))
+    });
     let margin = T::of(MARGIN) * (T::ONE - mu);
     (sum + margin).within(T::ZERO, T::ONE)
 }
@@ -110,13 +183,28 @@ pub fn sheen<T: Real>(roughness: &Stencil<T>, mu: T) -> T {
 /// The tables as plain values, for shaders: `q` by alpha and cosine, and the sheen's albedo by roughness
 /// and cosine.
 pub fn raw_tables() -> [Vec<f32>; 2] {
-    let share = |&x: &u16| f32::from(x) / 65535.0;
-    [SCHLICK.as_flattened(), SHEEN.as_flattened()].map(|table| table.iter().map(share).collect())
+    [SCHLICK_SHARES.as_flattened(), SHEEN_SHARES.as_flattened()].map(<[f32]>::to_vec)
 }
 
-#[inline(always)]
-fn entry<T: Real>(x: u16) -> T {
-    T::of(f64::from(x) / SCALE)
+/// `q` by alpha and cosine.
+static SCHLICK_SHARES: [[f32; MUS]; ALPHAS] = shares(&SCHLICK);
+/// The sheen's albedo by roughness and cosine.
+static SHEEN_SHARES: [[f32; MUS]; ROUGHNESSES] = shares(&SHEEN);
+
+/// The entries of a table over the largest one.
+#[allow(clippy::cast_lossless, reason = "`From` is not const")]
+const fn shares<const N: usize>(table: &[[u16; MUS]; N]) -> [[f32; MUS]; N] {
+    let mut shares = [[0.0; MUS]; N];
+    let mut i = 0;
+    while i < N {
+        let mut k = 0;
+        while k < MUS {
+            shares[i][k] = table[i][k] as f32 / 65535.0;
+            k += 1;
+        }
+        i += 1;
+    }
+    shares
 }
 
 #[cfg(test)]
@@ -130,13 +218,14 @@ mod tests {
         let mut least = 1.0_f64;
         for i in 0..=20 {
             let ggx = Ggx::new(Alpha::isotropic(0.05 * f64::from(i)));
-            let layer = LayerAlbedo::new(ggx, 0.04, 1.0);
+            let layer = LayerAlbedo::new(ggx);
+            let limit = |w| layer.look_up(w).limit([0.04, 1.0], w);
             for z in [0.71_f64, 0.8, 0.9, 1.0] {
-                let limit = layer.limit(vec3((1.0 - z * z).sqrt(), 0.0, z));
+                let limit = limit(vec3((1.0 - z * z).sqrt(), 0.0, z));
                 assert!(limit <= 1.0);
                 least = least.min(limit);
             }
-            let grazing = layer.limit(vec3(0.995, 0.0, 0.1));
+            let grazing = limit(vec3(0.995, 0.0, 0.1));
             // Rough facets lose what the base would have too much.
             assert!(grazing < 1.0 || i > 6, "{i}");
         }

@@ -3,17 +3,19 @@
 pub(crate) mod albedo;
 mod albedo_table;
 mod sheen;
+mod uncoated;
 
 use super::principled::terms::schlick_weight;
 use super::{Bsdf, BsdfSample, Transport};
 use crate::alpha::Alpha;
-use crate::energy::Loss;
+use crate::batch::InColumns;
 use crate::fresnel::{dielectric, refract};
 use crate::math::{Frame, Real, Rgb, Vec3, vec3, warp};
 use crate::ndf::{Ggx, Masking, Ndf};
 use crate::vndf::{Sampler, VisibleNormals};
-use albedo::LayerAlbedo;
+use albedo::{LayerAlbedo, LookedUp, PLACES};
 use sheen::Sheen;
+use uncoated::{BaseShares, COLUMNS, FacetLight, Material, Uncoated};
 
 /// What a [`Gltf`] is made of, by the names of the specification; shares are in `[0, 1]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,16 +124,11 @@ impl<T: Real> Default for GltfParameters<T> {
 /// sheen: Estevez and Kulla 2017.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gltf<T> {
-    base: Rgb<T>,
-    ggx: Ggx<T>,
+    uncoated: Uncoated<T>,
     /// Normals of transmission: without blur where nothing bends.
     passing: Ggx<T>,
     albedo: LayerAlbedo<T>,
-    f0: Rgb<T>,
-    specular: T,
-    metallic: T,
-    /// Weights of the two bases under the dielectric layer.
-    diffuse: T,
+    /// Weight of transmission under the dielectric layer.
     through: T,
     bends: bool,
     /// Index beyond over that on the side of `wo`.
@@ -140,8 +137,8 @@ pub struct Gltf<T> {
     coat: Ggx<T>,
     coat_normal: Vec3<T>,
     sheen: Option<Sheen<T>>,
-    /// What facets lose by scattering once, where the metal gives it back.
-    loss: Option<Loss<T>>,
+    /// Whether the metal gives back what its facets lose by scattering once.
+    compensated: bool,
 }
 
 /// Probabilities of the sampler's parts, and what else depends on the view alone.
@@ -178,14 +175,16 @@ impl<T: Real> Gltf<T> {
         let transmission = share(p.transmission);
         let sheen = p.sheen_colour.map(|c| front(share(c)));
         Self {
-            base: p.base_colour.map(share),
-            ggx,
+            uncoated: Uncoated {
+                base: p.base_colour.map(share),
+                ggx,
+                f0,
+                specular,
+                metallic,
+                diffuse: front((T::ONE - metallic) * (T::ONE - transmission)),
+            },
             passing: if p.volume && !bends { sharp } else { ggx },
-            albedo: LayerAlbedo::new(ggx, specular * f0.max_channel(), specular),
-            f0,
-            specular,
-            metallic,
-            diffuse: front((T::ONE - metallic) * (T::ONE - transmission)),
+            albedo: LayerAlbedo::new(ggx),
             through: (T::ONE - metallic) * transmission,
             bends,
             eta: T::select(inside, T::ONE / ior, ior),
@@ -193,8 +192,7 @@ impl<T: Real> Gltf<T> {
             coat: Ggx::new(Alpha::isotropic(alpha_of(share(p.clearcoat_roughness)))),
             coat_normal: Vec3::Z,
             sheen: (!sheen.is_black()).then(|| Sheen::new(sheen, share(p.sheen_roughness))),
-            loss: (p.compensated && metallic > T::ZERO)
-                .then(|| Loss::new(ggx, Masking::HeightCorrelated)),
+            compensated: p.compensated && metallic > T::ZERO,
         }
     }
 
@@ -210,10 +208,10 @@ impl<T: Real> Gltf<T> {
         }
     }
 
-    /// The dielectric layer's Fresnel term, with its weight.
+    /// Whether anything passes it; else it only reflects.
     #[inline(always)]
-    fn layer(&self, s: T) -> Rgb<T> {
-        self.f0.map(|f0| self.specular * (f0 + (T::ONE - f0) * s))
+    pub fn transmits(&self) -> bool {
+        self.through > T::ZERO
     }
 
     /// Schlick's weight at a facet, refracted where light leaves the denser body.
@@ -236,39 +234,53 @@ impl<T: Real> Gltf<T> {
     /// Factor of the metal's reflectance, seen from `wo`.
     #[inline]
     fn gain(&self, wo: Vec3<T>) -> Rgb<T> {
-        let Some(loss) = &self.loss else {
-            return Rgb::WHITE;
-        };
-        let lost = loss.directional(wo);
-        let ratio = lost / (T::ONE - lost).at_least(T::of(1e-5));
-        self.base.map(|b| T::ONE + b * ratio)
+        if self.compensated {
+            let lost = self.albedo.lost(wo);
+            self.material().gain(LookedUp { lost, q: T::ZERO })
+        } else {
+            Rgb::WHITE
+        }
+    }
+
+    #[inline(always)]
+    fn material(&self) -> Material<T> {
+        Material {
+            of: self.uncoated,
+            compensated: self.compensated,
+        }
+    }
+
+    /// What of the diffuse base is not too much, towards a direction.
+    #[inline]
+    fn limit(&self, w: Vec3<T>) -> T {
+        self.albedo.look_up(w).limit(self.uncoated.ends(), w)
     }
 
     /// Reflectance of the facets, metal and dielectric, and what the layer leaves to its base.
     ///
     /// * `gain`: factor of the metal's.
     #[inline(always)]
-    fn fresnel(&self, cos: T, gain: Rgb<T>) -> (Rgb<T>, T) {
-        let s = self.schlick(cos);
-        let layer = self.layer(s);
-        let metal = self.base.map(|b| b + (T::ONE - b) * s);
-        (
-            metal * gain * self.metallic + layer * (T::ONE - self.metallic),
-            T::ONE - layer.max_channel(),
-        )
+    fn fresnel(&self, cos: T, gain: Rgb<T>) -> FacetLight<T> {
+        self.uncoated.fresnel(self.schlick(cos), gain)
+    }
+
+    /// Whether it has neither coat nor sheen, and passes nothing.
+    #[inline(always)]
+    fn is_uncoated(&self) -> bool {
+        let is_coated = self.clearcoat > T::ZERO || self.sheen.is_some();
+        !is_coated && !self.bends && self.through <= T::ZERO
     }
 
     #[inline]
     fn shares(&self, wo: Vec3<T>) -> Shares<T> {
         let gain = self.gain(wo);
-        let (reflectance, left) = self.fresnel(wo.z.abs(), gain);
-        // Facets pass light where the mean surface reflects all of it.
-        let left = left.at_least(T::of(0.1)) * self.base.max_channel();
+        let mean = self.fresnel(wo.z.abs(), gain);
+        let left = self.uncoated.left_to_base(mean);
         let under = T::ONE - self.coat_share(wo);
         let coat = self.coat_share(wo);
         let sheen = under * self.sheen.map_or(T::ZERO, |sheen| sheen.strength(wo));
-        let diffuse = under * left * self.diffuse;
-        let specular = under * reflectance.max_channel();
+        let diffuse = under * left * self.uncoated.diffuse;
+        let specular = under * mean.reflectance.max_channel();
         let transmission = under * left * self.through;
         let sum = coat + sheen + diffuse + specular + transmission;
         let scale = T::ONE / sum.at_least(T::TINY);
@@ -322,18 +334,17 @@ impl<T: Real> Gltf<T> {
         wi: Vec3<T>,
         wm: Vec3<T>,
     ) -> (Rgb<T>, T) {
-        let cos = wo.dot(wm);
-        let cosine = wi.z * T::INV_PI;
-        let (reflectance, left) = self.fresnel(cos, shares.gain);
-        let quarter = T::of(0.25) * self.ggx.d(wm);
-        let norm = self.ggx.reflection_norm(Sampler::Bounded, wo);
-        let mut pdf = shares.specular * quarter / norm + shares.diffuse * cosine;
-        let shadowed = self.ggx.g2_over_cos(Masking::HeightCorrelated, wo, wi);
-        let mut f_cos = reflectance * (quarter * shadowed);
-        if self.diffuse > T::ZERO {
-            let limit = self.albedo.limit(wo) * self.albedo.limit(wi);
-            f_cos += self.base * (self.diffuse * left * limit * cosine);
-        }
+        let facet = self.fresnel(wo.dot(wm), shares.gain);
+        let limit = if self.uncoated.diffuse > T::ZERO {
+            self.limit(wo) * self.limit(wi)
+        } else {
+            T::ONE
+        };
+        let of_base = BaseShares {
+            specular: shares.specular,
+            diffuse: shares.diffuse,
+        };
+        let (mut f_cos, mut pdf) = self.uncoated.at_facet(facet, of_base, limit, [wo, wi, wm]);
         f_cos *= self.covers(wo, wi);
         if let Some(sheen) = self.sheen {
             f_cos += sheen.f_cos(wo, wi, wm) * (T::ONE - self.coat_share(wo));
@@ -359,13 +370,13 @@ impl<T: Real> Gltf<T> {
         if !facing {
             return (Rgb::BLACK, T::ZERO);
         }
-        let (_, left) = self.fresnel(wo.dot(wm), shares.gain);
+        let FacetLight { left, .. } = self.fresnel(wo.dot(wm), shares.gain);
         let quarter = T::of(0.25) * self.passing.d(wm);
         let shadowed = self.passing.g2_over_cos(Masking::Separable, wo, up);
         let norm = self.passing.reflection_norm(Sampler::Bounded, wo);
         let weight = self.through * left * self.covers(wo, wi);
         (
-            self.base * (weight * quarter * shadowed),
+            self.uncoated.base * (weight * quarter * shadowed),
             shares.transmission * quarter / norm,
         )
     }
@@ -387,19 +398,22 @@ impl<T: Real> Gltf<T> {
         if !lit {
             return (Rgb::BLACK, T::ZERO);
         }
-        let (_, left) = self.fresnel(cos_o, shares.gain);
+        let FacetLight { left, .. } = self.fresnel(cos_o, shares.gain);
         let sum = cos_o + self.eta * cos_i;
         let jacobian = self.eta * self.eta * -cos_i / (sum * sum).at_least(T::TINY);
-        let visible = self.ggx.d(wm) * cos_o * jacobian;
-        let shadowed = self.ggx.g2_over_cos(Masking::HeightCorrelated, wo, wi);
+        let visible = self.uncoated.ggx.d(wm) * cos_o * jacobian;
+        let shadowed = self
+            .uncoated
+            .ggx
+            .g2_over_cos(Masking::HeightCorrelated, wo, wi);
         let scale = match transport {
             Transport::Radiance => T::ONE / (self.eta * self.eta),
             Transport::Importance => T::ONE,
         };
         let weight = self.through * left * scale * self.covers(wo, wi);
         (
-            self.base * (weight * visible * shadowed),
-            shares.transmission * visible / self.ggx.projected_area(wo),
+            self.uncoated.base * (weight * visible * shadowed),
+            shares.transmission * visible / self.uncoated.ggx.projected_area(wo),
         )
     }
 
@@ -416,7 +430,7 @@ impl<T: Real> Gltf<T> {
     #[inline]
     fn sample_transmission(&self, wo: Vec3<T>, direction: [T; 2]) -> Option<Vec3<T>> {
         if self.bends {
-            let wm = self.ggx.sample_wm(wo, direction);
+            let wm = self.uncoated.ggx.sample_wm(wo, direction);
             let cos = wo.dot(wm);
             let bent = dielectric(cos, self.eta);
             let wi = refract(wo, wm, cos, bent.cos_t, self.eta);
@@ -462,7 +476,9 @@ impl<T: Real> Bsdf<T> for Gltf<T> {
         let coat = specular + shares.coat;
         let sheen = coat + shares.sheen;
         let wi = if u[0] < specular {
-            self.ggx.sample_reflection(Sampler::Bounded, wo, direction)
+            self.uncoated
+                .ggx
+                .sample_reflection(Sampler::Bounded, wo, direction)
         } else if u[0] < coat {
             self.sample_coat(wo, direction)?
         } else if u[0] < sheen {
@@ -493,7 +509,55 @@ impl<T: Real> Bsdf<T> for Gltf<T> {
 
     #[inline(always)]
     fn albedo(&self) -> Rgb<T> {
-        self.base
+        self.uncoated.base
+    }
+}
+
+/// In columns, where it is neither coated nor transmits.
+impl<T: Real> InColumns<T, COLUMNS, PLACES, 2> for Gltf<T> {
+    #[inline(always)]
+    fn columns(&self) -> Option<[T; COLUMNS]> {
+        self.is_uncoated().then(|| self.material().columns())
+    }
+
+    #[inline(always)]
+    fn places(columns: [T; COLUMNS], w: Vec3<T>) -> [T; PLACES] {
+        let alpha = Material::of_columns(columns).of.ggx.alpha();
+        albedo::places(alpha.x, w)
+    }
+
+    /// What is lost, and `q`: nothing where neither counts.
+    #[inline(always)]
+    fn look_up(&self, places: [T; PLACES], w: Vec3<T>) -> [T; 2] {
+        if self.uncoated.diffuse > T::ZERO || self.compensated {
+            let LookedUp { lost, q } = self.albedo.look_up_at(places, w);
+            [lost, q]
+        } else {
+            [T::ZERO; 2]
+        }
+    }
+
+    #[inline(always)]
+    fn sample_wi_of(columns: [T; COLUMNS], [lost, q]: [T; 2], wo: Vec3<T>, u: [T; 3]) -> Vec3<T> {
+        Material::of_columns(columns).sample_wi(LookedUp { lost, q }, wo, u)
+    }
+
+    #[inline(always)]
+    fn eval_pdf_of(
+        columns: [T; COLUMNS],
+        [[lost_o, q_o], [lost_i, q_i]]: [[T; 2]; 2],
+        wo: Vec3<T>,
+        wi: Vec3<T>,
+    ) -> (Rgb<T>, T) {
+        let of_wo = LookedUp {
+            lost: lost_o,
+            q: q_o,
+        };
+        let of_wi = LookedUp {
+            lost: lost_i,
+            q: q_i,
+        };
+        Material::of_columns(columns).eval_pdf([of_wo, of_wi], wo, wi)
     }
 }
 

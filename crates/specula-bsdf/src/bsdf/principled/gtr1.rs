@@ -8,7 +8,9 @@ use crate::math::{Real, Vec3, vec3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Gtr1<T> {
     /// `alpha^2`, in `(0, 1)`.
-    alpha2: T,
+    pub(super) alpha2: T,
+    /// `ln(alpha^2)`.
+    pub(super) log: T,
 }
 
 impl<T: Real> Gtr1<T> {
@@ -16,8 +18,10 @@ impl<T: Real> Gtr1<T> {
     #[inline(always)]
     pub(super) fn of_gloss(gloss: T) -> Self {
         let alpha = T::of(0.1) + (T::of(0.001) - T::of(0.1)) * gloss;
+        let alpha2 = alpha * alpha;
         Self {
-            alpha2: alpha * alpha,
+            alpha2,
+            log: alpha2.ln(),
         }
     }
 
@@ -30,7 +34,7 @@ impl<T: Real> Gtr1<T> {
     pub(super) fn d(&self, wm: Vec3<T>) -> T {
         let sin2 = wm.x * wm.x + wm.y * wm.y;
         let denominator = sin2 + self.alpha2 * wm.z * wm.z;
-        let norm = (self.alpha2 - T::ONE) / (T::PI * self.alpha2.ln());
+        let norm = (self.alpha2 - T::ONE) / (T::PI * self.log);
         T::select(wm.z > T::ZERO, norm / denominator, T::ZERO)
     }
 
@@ -39,7 +43,7 @@ impl<T: Real> Gtr1<T> {
     pub(super) fn sample_wm(&self, u: [T; 2]) -> Vec3<T> {
         let (sin_phi, cos_phi) = u[1].sin_cos_turns();
         // a^2 to the power of 1 - u.
-        let power = ((T::ONE - u[0]) * self.alpha2.ln()).exp();
+        let power = ((T::ONE - u[0]) * self.log).exp_below();
         let scale = T::ONE / (T::ONE - self.alpha2);
         let sin = ((power - self.alpha2) * scale).safe_sqrt();
         let cos = ((T::ONE - power) * scale).safe_sqrt();

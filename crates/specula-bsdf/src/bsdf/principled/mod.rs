@@ -1,12 +1,15 @@
 //! Mitsuba 3's `principled` and `principledthin`: Burley's material of 2012 and 2015.
 
 mod gtr1;
+mod opaque;
 mod solid;
 pub(super) mod terms;
 mod thin;
 
 use super::{Bsdf, BsdfSample, Transport};
+use crate::batch::InColumns;
 use crate::math::{Real, Rgb, Vec3};
+use opaque::{COLUMNS, Opaque};
 use solid::Solid;
 use thin::Thin;
 
@@ -153,6 +156,17 @@ impl<T: Real> Principled<T> {
     }
 }
 
+impl<T: Real> Principled<T> {
+    /// Whether anything passes it; else it only reflects.
+    #[inline(always)]
+    pub fn transmits(&self) -> bool {
+        match &self.0 {
+            Surface::Solid(solid) => solid.through > T::ZERO,
+            Surface::Thin(_) => true,
+        }
+    }
+}
+
 /// An index that bends: refraction has no density where nothing is bent.
 fn proper_index<T: Real>(eta: T) -> T {
     let eta = eta.within(T::of(0.1), T::of(10.0));
@@ -194,5 +208,37 @@ impl<T: Real> Bsdf<T> for Principled<T> {
             Surface::Solid(solid) => solid.base(),
             Surface::Thin(thin) => thin.base(),
         }
+    }
+}
+
+/// In columns, where it is closed and refracts nothing.
+impl<T: Real> InColumns<T, COLUMNS, 0, 0> for Principled<T> {
+    #[inline(always)]
+    fn columns(&self) -> Option<[T; COLUMNS]> {
+        match &self.0 {
+            Surface::Solid(solid) if solid.through <= T::ZERO => Some(solid.opaque.columns()),
+            _ => None,
+        }
+    }
+
+    /// It has no tables.
+    #[inline(always)]
+    fn places(_columns: [T; COLUMNS], _w: Vec3<T>) -> [T; 0] {
+        []
+    }
+
+    #[inline(always)]
+    fn look_up(&self, _places: [T; 0], _w: Vec3<T>) -> [T; 0] {
+        []
+    }
+
+    #[inline(always)]
+    fn sample_wi_of(columns: [T; COLUMNS], _: [T; 0], wo: Vec3<T>, u: [T; 3]) -> Vec3<T> {
+        Opaque::of_columns(columns).sample_wi(wo, u)
+    }
+
+    #[inline(always)]
+    fn eval_pdf_of(columns: [T; COLUMNS], _: [[T; 0]; 2], wo: Vec3<T>, wi: Vec3<T>) -> (Rgb<T>, T) {
+        Opaque::of_columns(columns).eval_pdf(wo, wi)
     }
 }

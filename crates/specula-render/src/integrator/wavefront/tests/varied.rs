@@ -194,6 +194,36 @@ fn textured() -> Vec<Varied> {
     ]
 }
 
+/// Kinds whose lobes are gathered from all vertices that have one: none in one piece.
+fn own_lobes() -> Vec<Material> {
+    let gltf = MaterialKind::Gltf(GltfMaterial {
+        base_colour: COLOUR,
+        metallic: NUMBER,
+        roughness: NUMBER,
+        ..gltf()
+    });
+    let normals = Bump::Normal {
+        map: NORMALS,
+        scale: 0.7,
+    };
+    let glass = MaterialKind::Dielectric {
+        eta: 1.5,
+        roughness: alpha(NUMBER),
+        reflection_tint: grey(1.0),
+        transmission_tint: grey(1.0),
+    };
+    let of_principled = MaterialKind::Principled(principled());
+    vec![
+        Material::new(gltf),
+        bent(gltf, normals, BumpRules::Plain),
+        bent(of_principled, normals, BumpRules::Plain),
+        Material::new(of_principled),
+        bent(metal(alpha(NUMBER), grey(1.0)), normals, BumpRules::Plain),
+        Material::new(glass),
+        Material::new(metal(alpha(NUMBER), grey(0.8))),
+    ]
+}
+
 /// Kinds with many lobes, with textures.
 fn textured_layers() -> Vec<Varied> {
     let grey = diffuse(grey(0.6), 0.0);
@@ -220,6 +250,7 @@ fn textured_layers() -> Vec<Varied> {
     ]);
     vec![
         case("glTF", plain([MaterialKind::Gltf(everything), grey]), 30),
+        case("metallic and rough", own_lobes(), 40),
         case("glTF glass", plain([MaterialKind::Gltf(glass), grey]), 30),
         case("principled, plastic", plastics, 30),
     ]
@@ -479,4 +510,11 @@ fn diffuse_textures_are_shaded_in_batches() {
     let [together, _] = both.vertices;
     assert_eq!((together.bound, together.single), (0, 0));
     assert_eq!(together.shares(), [1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn own_lobes_are_shaded_in_batches() {
+    let both = both_ways(&scene_with(&own_lobes()), &options(Energy::None));
+    let [together, _] = both.vertices;
+    assert_eq!((together.bound, together.single), (0, 0));
 }
