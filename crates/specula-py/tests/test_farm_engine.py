@@ -15,7 +15,7 @@ import pytest
 import farm_cluster
 from specula_render.farm import bundle, cli, export, film, listening, ranges, simulation
 from specula_render.farm.policy import Policy
-from specula_render.farm.request import Request, default_outputs, with_frame
+from specula_render.farm.request import Request, default_outputs, scene_of, with_frame
 from specula_render.farm.store import JobError, Store
 
 SIZE = ("--resolution=96x64",)
@@ -123,6 +123,18 @@ def test_names_of_frames() -> None:
     assert with_frame("a.###.exr", 7) == "a.007.exr" and with_frame("a.#.exr", 12) == "a.12.exr"
     assert default_outputs("x/seq.###.pbrt", (0, 2)) == ("seq.####.exr", "seq.####.png")
     assert default_outputs(None, None) == ("orbs.exr", "orbs.png")
+
+
+def test_frames_of_one_file(tmp_path: Path) -> None:
+    """Frames of glTF's animations by their number, of others by ``$frame``."""
+    for name, option in (("a.glb", "--frame"), ("A.GLTF", "--frame"), ("a.xml", "-D")):
+        value = "frame=7" if option == "-D" else "7"
+        request = Request(name, 8, ("out.##.exr",), frames=(3, 9))
+        assert scene_of(request, 7) == (name, (option, value))
+        script = tmp_path / f"{name}.sh"
+        export.write(request, 2, "slurm", script)
+        assert f'{option} "{value.replace("7", "$frame")}"' in script.read_text()
+    assert scene_of(Request("a.##.glb", 8, ()), 7) == ("a.07.glb", ())
 
 
 @pytest.mark.parametrize(

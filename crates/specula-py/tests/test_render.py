@@ -260,9 +260,11 @@ def moving(path: Path) -> Path:
 def test_animations_are_seen_at_a_moment_and_over_a_time(tmp_path: Path) -> None:
     file = moving(tmp_path / "moving.gltf")
 
-    def place(at: float | None, shutter: float | None) -> tuple[float, float]:
+    def place(
+        at: float | None, shutter: float | None, animation: str | None = None
+    ) -> tuple[float, float]:
         """Return where light is across the picture, from -1 to 1, and how wide."""
-        scene = load(file, at=at, shutter=shutter)
+        scene = load(file, at=at, shutter=shutter, animation=animation)
         columns = render(scene, 64, resolution=SMALL).rgb.sum(axis=(0, 2)).astype(np.float64)
         across = np.linspace(-1.0, 1.0, 32)
         mean = float((columns * across).sum() / columns.sum())
@@ -270,12 +272,15 @@ def test_animations_are_seen_at_a_moment_and_over_a_time(tmp_path: Path) -> None
 
     left, middle, right = (place(at, None) for at in (0.0, 1.0, 2.0))
     assert left[0] < -0.5 < -0.1 < middle[0] < 0.1 < 0.5 < right[0]
+    assert place(1.0, None, "0") == middle
     blurred = place(0.0, 2.0)
     assert abs(blurred[0]) < 0.1 and blurred[1] > 1.5 * middle[1]
     assert place(0.5, 0.0) != place(0.5, 1.0)
     for name in ("at", "shutter"):
         with pytest.raises(ValueError, match=f"{name}: expected seconds"):
             load(file, **{name: -1.0})
+    with pytest.raises(ValueError, match="animation \"walk\" is asked for"):
+        load(file, animation="walk")
 
 
 def test_meshes_of_trimesh_are_taken() -> None:

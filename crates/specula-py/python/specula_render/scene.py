@@ -491,6 +491,7 @@ def load(
     search: Sequence[PathLike] = (),
     at: float | None = None,
     shutter: float | None = None,
+    animation: str | None = None,
 ) -> Scene:
     """Read a scene: pbrt-v4, Mitsuba 3, glTF 2.0, OBJ or PLY; the content tells which.
 
@@ -507,6 +508,9 @@ def load(
         the file stores.
     shutter
         Seconds that the shutter is open from that moment on: what moves is blurred.
+    animation
+        Which animation of a glTF file, by its name or its number from 0; by default all together,
+        or the first alone where they move the same.
 
     Raises
     ------
@@ -514,7 +518,7 @@ def load(
         If a file cannot be read.
     ValueError
         If the scene is damaged or would be meaningless; the message begins with file, line and
-        column. If a time is below 0.
+        column. If a time is below 0, or there is no such animation.
 
     Warns
     -----
@@ -523,8 +527,9 @@ def load(
     """
     given = [(name, str(value)) for name, value in (parameters or {}).items()]
     folders = [os.fspath(p) for p in search]
-    exposure = None if at is None and shutter is None else (at or 0.0, shutter or 0.0)
-    data, messages = _native.load(os.fspath(path), given, folders, exposure)
+    still = at is None and shutter is None and animation is None
+    exposure = None if still else (at or 0.0, shutter or 0.0)
+    data, messages = _native.load(os.fspath(path), given, folders, exposure, animation)
     for message in dict.fromkeys(messages):
         warnings.warn(message, SceneWarning, stacklevel=2)
     return Scene._of(data)

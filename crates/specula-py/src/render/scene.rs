@@ -52,19 +52,21 @@ type Surface = (Option<Material>, Option<Colour>, bool);
 
 /// Reads a scene of any format; returns it with the warnings of its reader.
 #[pyfunction]
-#[pyo3(signature = (path, parameters, search, exposure))]
+#[pyo3(signature = (path, parameters, search, exposure, animation))]
 pub(crate) fn load(
     py: Python<'_>,
     path: PathBuf,
     parameters: Vec<(String, String)>,
     search: Vec<PathBuf>,
     exposure: Option<[f64; 2]>,
+    animation: Option<String>,
 ) -> PyResult<(SceneData, Vec<String>)> {
     std::fs::metadata(&path).map_err(|e| io_error(&path, &e))?;
     let mut options = LoadOptions::default();
     options.parameters = parameters;
     options.folders = search;
     options.exposure = exposure.map(exposed).transpose()?;
+    options.animation = animation;
     let loaded = py
         .detach(|| load_with(&path, &options))
         .map_err(|e| scene_error(&e))?;

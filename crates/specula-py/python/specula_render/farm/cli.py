@@ -32,7 +32,18 @@ _WITH_VALUE = [
     "share-paths",
 ]
 """Options of ``specula render`` that change samples."""
-_OF_LOADING = ["missing", "limit-nesting", "limit-bytes", "limit-pixels", "limit-vertices"]
+_OF_LOADING = [
+    "missing",
+    "limit-nesting",
+    "limit-bytes",
+    "limit-pixels",
+    "limit-vertices",
+    "at",
+    "fps",
+    "shutter",
+    "animation",
+]
+"""Options of ``specula render`` that change what is read."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -129,7 +140,8 @@ def _picture_options(parser: argparse.ArgumentParser) -> None:
         "--frames",
         type=_frames,
         metavar="A..B",
-        help="frames A to B - 1: in place of #### in SCENE, or as $frame of a Mitsuba scene",
+        help="frames A to B - 1: in place of #### in SCENE, of a glTF file's animations, or as $frame "
+        "of a Mitsuba scene",
     )
     parser.add_argument(
         "-o", "--output", action="append", default=[], metavar="OUT", help="#### is the frame"

@@ -11,7 +11,7 @@ import re
 import shlex
 from pathlib import Path
 
-from specula_render.farm.request import BadRequest, Request, default_outputs
+from specula_render.farm.request import BadRequest, Request, default_outputs, frame_words
 from specula_render.farm.store import replace
 
 _PADDING = re.compile("#+")
@@ -143,7 +143,8 @@ def _render(request: Request, parts: int) -> list[str]:
     if request.scene is not None:
         command.append(_numbered(str(Path(request.scene).absolute())))
         if request.frames is not None and "#" not in Path(request.scene).name:
-            command += ["-D", '"frame=$frame"']
+            option, value = frame_words(request.scene, "$frame")
+            command += [option, f'"{value}"']
     searched = [w for f in request.folders for w in ("--search", str(Path(f).absolute()))]
     command += [shlex.quote(w) for w in (*request.loading, *request.options, *searched)]
     spp = request.spp

@@ -179,7 +179,14 @@ def scene_of(request: Request, frame: int | None) -> tuple[str, tuple[str, ...]]
     scene = request.scene or ""
     if frame is None or "#" in Path(scene).name:
         return with_frame(scene, frame), ()
-    return scene, ("-D", f"frame={frame}")
+    return scene, frame_words(scene, str(frame))
+
+
+def frame_words(scene: str, frame: str) -> tuple[str, str]:
+    """Return the option that makes a file its frame: of glTF's animations, or as ``$frame``."""
+    if Path(scene).suffix.lower() in (".glb", ".gltf"):
+        return "--frame", frame
+    return "-D", f"frame={frame}"
 
 
 def _picture(
