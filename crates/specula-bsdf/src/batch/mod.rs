@@ -93,7 +93,6 @@ mod visible;
 pub use alphas::Alphas;
 pub use coats::PerElementBase;
 pub use columns::Each;
-pub(crate) use columns::InColumns;
 pub use level::Level;
 pub use lobe_batches::LobeBatches;
 pub use lobes::{Any, Lobes};

@@ -13,6 +13,7 @@ mod conductor;
 mod dielectric;
 mod eon;
 pub(crate) mod gltf;
+pub(crate) mod in_columns;
 mod kulla_conty;
 mod lambert;
 mod layered;
