@@ -210,6 +210,8 @@ fn batch(data: &mut Data, kernel: &str, level: Level) -> Option<()> {
 fn batch_lobe(data: &mut Data, kernel: &str, level: Level) -> Option<()> {
     match kernel {
         "gold" => draw_all(data, |d| d.gold, level),
+        "beckmann" => draw_all(data, |d| d.beckmann, level),
+        "beckmann-eval" => eval_all(data, |d| d.beckmann, level),
         "gold-eval" => eval_all(data, |d| d.gold, level),
         "exact" => draw_all(data, |d| d.exact, level),
         "brushed" => draw_all(data, |d| d.brushed, level),

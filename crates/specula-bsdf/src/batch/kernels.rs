@@ -5,10 +5,11 @@
 //! loop of its own over a short chunk, need as many loops as there are samplers plus reflectances
 //! instead of their product. Short loops are faster, too: the machine overlaps more iterations.
 
-use super::columns::{self, InColumns, LobeAt};
+use super::columns::{self, LobeAt};
 use super::lobes::{Family, InStages, Isotropic, Kernel};
 use super::recast::convert;
 use super::slices::{Colours, Directions, SampleOutcome, Samples};
+use crate::bsdf::in_columns::InColumns;
 use crate::bsdf::{Bsdf, Transport};
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Vec3, vec3};

@@ -1,9 +1,10 @@
 //! What the batch functions take in place of one lobe.
 
-use super::columns::{InColumns, LobeAt};
+use super::columns::LobeAt;
 use super::level::Arithmetic;
 use super::recast::{Recast, convert, recast};
 use super::slices::LengthMismatch;
+use crate::bsdf::in_columns::InColumns;
 use crate::bsdf::{
     Bsdf, BsdfSample, Compensated, CompensatedDielectric, DiffuseTransmission, Eon, Lambert,
     SmoothConductor, SmoothDielectric, ThinDielectric, Transport,

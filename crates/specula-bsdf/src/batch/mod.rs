@@ -51,6 +51,8 @@
 //! * All of Lambert, EON, the diffuse sheet, metals, rough glass and smooth dielectrics at both
 //!   vector levels, but for the samples of rough glass by [`Sampler::Bounded`](crate::vndf::Sampler) or
 //!   `Exact`, which choose a branch first.
+//! * Values and densities of Beckmann's metals and glass, and weights of the metals' samples; its normals are found one by
+//!   one.
 //! * Coats over diffuse bases and plastics of GGX, whose tables are a row over the cosine for each batch, of which values
 //!   are selected, not addressed. Exact at every level.
 //! * glTF's material without coat, sheen and transmission, and Mitsuba's principled without transmission. Of glTF's some 110
@@ -91,7 +93,6 @@ mod visible;
 pub use alphas::Alphas;
 pub use coats::PerElementBase;
 pub use columns::Each;
-pub(crate) use columns::InColumns;
 pub use level::Level;
 pub use lobe_batches::LobeBatches;
 pub use lobes::{Any, Lobes};

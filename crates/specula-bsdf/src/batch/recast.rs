@@ -4,7 +4,7 @@
 use crate::alpha::Alpha;
 use crate::fresnel::{Conductor, F82Tint, Reflectance, Schlick, Tinted, Untinted};
 use crate::math::Real;
-use crate::ndf::{Ggx, Ndf};
+use crate::ndf::{Beckmann, Ggx, Ndf};
 
 /// A type with a scalar parameter, convertible to another scalar.
 pub(super) trait Recast {
@@ -39,6 +39,7 @@ pub(super) use recast;
 
 recast!(Alpha, self, U => Alpha { x: convert(self.x), y: convert(self.y) });
 recast!(Ggx, self, U => Ggx::new(self.alpha().recast()));
+recast!(Beckmann, self, U => Beckmann::new(self.alpha().recast()));
 recast!(Conductor, self, U => Conductor {
     eta: self.eta.cast(),
     k: self.k.cast(),

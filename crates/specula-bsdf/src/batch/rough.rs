@@ -3,13 +3,13 @@
 use super::alphas::{AlphaAt, AlphaSlices, Alphas};
 use super::level::Arithmetic;
 use super::lobes::{Family, InStages, Kernel, Lobes, Same};
-use super::recast::{Recast, convert, recast};
+use super::recast::{Recast, convert};
 use super::slices::LengthMismatch;
 use crate::alpha::Alpha;
 use crate::bsdf::{BsdfSample, RoughConductor, RoughDielectric};
 use crate::fresnel::Reflectance;
 use crate::math::{Real, Rgb, Vec3};
-use crate::ndf::{Ggx, Ndf};
+use crate::ndf::{Beckmann, Ggx, Ndf};
 use crate::vndf::Sampler;
 
 /// A rough lobe whose alphas differ from element to element, as from a texture.
@@ -39,39 +39,69 @@ impl<'a, T: Real, L> PerElement<'a, T, L> {
     }
 }
 
-recast!(RoughConductor, self, U => RoughConductor::new(self.ndf.recast(), self.reflectance.recast())
-    .with_sampler(self.sampler)
-    .with_masking(self.masking));
-recast!(RoughDielectric, self, U => {
-    let (ndf, eta) = (self.ndf.recast(), convert(self.eta));
-    let lobe = if self.two_sided {
-        RoughDielectric::new(ndf, eta)
-    } else {
-        RoughDielectric::facing(ndf, eta)
+/// The lobes over one distribution, in another scalar.
+macro_rules! recast_over {
+    ($ndf:ident) => {
+        impl<T: Real> Recast for RoughConductor<T, $ndf<T>> {
+            type In<U: Real> = RoughConductor<U, $ndf<U>>;
+
+            #[inline(always)]
+            fn recast<U: Real>(&self) -> RoughConductor<U, $ndf<U>> {
+                RoughConductor {
+                    ndf: self.ndf.recast(),
+                    reflectance: self.reflectance.recast(),
+                    sampler: self.sampler,
+                    masking: self.masking,
+                }
+            }
+        }
+
+        impl<T: Real> Recast for RoughDielectric<T, $ndf<T>> {
+            type In<U: Real> = RoughDielectric<U, $ndf<U>>;
+
+            #[inline(always)]
+            fn recast<U: Real>(&self) -> RoughDielectric<U, $ndf<U>> {
+                RoughDielectric {
+                    ndf: self.ndf.recast(),
+                    eta: convert(self.eta),
+                    two_sided: self.two_sided,
+                    sampler: self.sampler,
+                    masking: self.masking,
+                    tints: self.tints.cast(),
+                }
+            }
+        }
     };
-    lobe.with_sampler(self.sampler)
-        .with_masking(self.masking)
-        .with_tints(self.tints.cast())
-});
+}
+
+recast_over!(Ggx);
+recast_over!(Beckmann);
 
 /// A lobe that can be given other alphas.
 trait Rough<U: Real>: InStages<U> {
-    fn with_ndf(self, ggx: Ggx<U>) -> Self;
+    fn with_alpha(self, alpha: Alpha<U>) -> Self;
 }
 
-impl<U: Real> Rough<U> for RoughConductor<U> {
-    #[inline(always)]
-    fn with_ndf(self, ggx: Ggx<U>) -> Self {
-        Self { ndf: ggx, ..self }
-    }
+macro_rules! with_alphas {
+    ($($lobe:ident over $ndf:ident),*) => {
+        $(impl<U: Real> Rough<U> for $lobe<U, $ndf<U>> {
+            #[inline(always)]
+            fn with_alpha(self, alpha: Alpha<U>) -> Self {
+                Self {
+                    ndf: $ndf::new(alpha),
+                    ..self
+                }
+            }
+        })*
+    };
 }
 
-impl<U: Real> Rough<U> for RoughDielectric<U> {
-    #[inline(always)]
-    fn with_ndf(self, ggx: Ggx<U>) -> Self {
-        Self { ndf: ggx, ..self }
-    }
-}
+with_alphas!(
+    RoughConductor over Ggx,
+    RoughConductor over Beckmann,
+    RoughDielectric over Ggx,
+    RoughDielectric over Beckmann
+);
 
 #[inline(always)]
 fn is_isotropic<U: Real>(ggx: &Ggx<U>) -> bool {
@@ -80,8 +110,8 @@ fn is_isotropic<U: Real>(ggx: &Ggx<U>) -> bool {
 
 /// Clamped anew, so that the compiler sees two equal alphas, neither of them NaN.
 #[inline(always)]
-fn made_isotropic<U: Real>(ggx: &Ggx<U>) -> Ggx<U> {
-    Ggx::new(Alpha::isotropic(ggx.alpha().x))
+fn made_isotropic<U: Real>(ggx: &Ggx<U>) -> Alpha<U> {
+    Alpha::isotropic(ggx.alpha().x)
 }
 
 impl<U: Real> InStages<U> for RoughConductor<U> {
@@ -96,8 +126,7 @@ impl<U: Real> InStages<U> for RoughConductor<U> {
 
     #[inline(always)]
     fn isotropic(self) -> Self {
-        let ggx = made_isotropic(&self.ndf);
-        self.with_ndf(ggx)
+        self.with_alpha(made_isotropic(&self.ndf))
     }
 
     #[inline(always)]
@@ -144,6 +173,48 @@ impl<U: Real> InStages<U> for RoughConductor<U> {
     }
 }
 
+/// Its normals are found one after the other, by Newton's method; all else is vectors.
+impl<U: Real> InStages<U> for RoughConductor<U, Beckmann<U>> {
+    const STAGED: bool = true;
+    const HAS_REFLECTANCE: bool = true;
+
+    #[inline(always)]
+    fn reflectance(&self) -> Reflectance<U> {
+        self.reflectance
+    }
+
+    #[inline(always)]
+    fn choose_reflectance(self, reflectance: Reflectance<U>) -> Self {
+        Self {
+            reflectance,
+            ..self
+        }
+    }
+
+    #[inline(always)]
+    fn sample_first(&self, wo: Vec3<U>, u: [U; 3]) -> (Vec3<U>, U) {
+        self.sample_wi(wo, u)
+    }
+
+    #[inline(always)]
+    fn sample_second(&self, wo: Vec3<U>, (wi, norm): (Vec3<U>, U)) -> Option<BsdfSample<U>> {
+        self.weigh(wo, wi, norm)
+    }
+
+    #[inline(always)]
+    fn eval_first(&self, wo: Vec3<U>) -> [U; 2] {
+        self.norm(wo)
+    }
+
+    #[inline(always)]
+    fn eval_second(&self, wo: Vec3<U>, wi: Vec3<U>, norm: [U; 2]) -> (Rgb<U>, U) {
+        self.evaluate(wo, wi, norm)
+    }
+}
+
+/// Values and densities are vectors; samples are made one after the other.
+impl<U: Real> InStages<U> for RoughDielectric<U, Beckmann<U>> {}
+
 impl<U: Real> InStages<U> for RoughDielectric<U> {
     const HAS_SAMPLER: bool = true;
 
@@ -154,8 +225,7 @@ impl<U: Real> InStages<U> for RoughDielectric<U> {
 
     #[inline(always)]
     fn isotropic(self) -> Self {
-        let ggx = made_isotropic(&self.ndf);
-        self.with_ndf(ggx)
+        self.with_alpha(made_isotropic(&self.ndf))
     }
 
     #[inline(always)]
@@ -181,7 +251,7 @@ impl<T: Real, U: Real, L: Rough<U>> Family<U> for Textured<'_, T, L> {
 
     #[inline(always)]
     fn at(&self, i: usize) -> L {
-        self.lobe.with_ndf(Ggx::new(self.alpha_values.at(i)))
+        self.lobe.with_alpha(self.alpha_values.at(i))
     }
 
     #[inline(always)]
@@ -212,15 +282,15 @@ impl<T: Real, U: Real, L: Rough<U>> Family<U> for Textured<'_, T, L> {
 }
 
 macro_rules! rough_lobes {
-    ($($lobe:ident),*) => {
-        $(impl<T: Real> Lobes<T> for $lobe<T> {
+    ($($lobe:ident over $ndf:ident),*) => {
+        $(impl<T: Real> Lobes<T> for $lobe<T, $ndf<T>> {
             #[inline(always)]
             fn run<A: Arithmetic, K: Kernel>(&self, _n: usize, kernel: K) {
                 kernel.run::<A::Of<T>, _>(Same(self.recast()));
             }
         }
 
-        impl<T: Real> Lobes<T> for PerElement<'_, T, $lobe<T>> {
+        impl<T: Real> Lobes<T> for PerElement<'_, T, $lobe<T, $ndf<T>>> {
             fn check(&self, n: usize) -> Result<(), LengthMismatch> {
                 self.check(n)
             }
@@ -234,4 +304,9 @@ macro_rules! rough_lobes {
     };
 }
 
-rough_lobes!(RoughConductor, RoughDielectric);
+rough_lobes!(
+    RoughConductor over Ggx,
+    RoughConductor over Beckmann,
+    RoughDielectric over Ggx,
+    RoughDielectric over Beckmann
+);

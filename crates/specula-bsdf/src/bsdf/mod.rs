@@ -13,6 +13,7 @@ mod conductor;
 mod dielectric;
 mod eon;
 pub(crate) mod gltf;
+pub(crate) mod in_columns;
 mod kulla_conty;
 mod lambert;
 mod layered;
@@ -105,10 +106,10 @@ macro_rules! lobe_table {
             /// See [`Black`].
             Black: $crate::bsdf::Black, reflects, scalar, "bsdf/black";
             /// See [`RoughConductor`], with Beckmann's normals.
-            RoughConductorBeckmann: $crate::bsdf::RoughConductor<T, $crate::ndf::Beckmann<T>>, reflects, scalar,
+            RoughConductorBeckmann: $crate::bsdf::RoughConductor<T, $crate::ndf::Beckmann<T>>, reflects, closed,
                 "bsdf/rough_conductor";
             /// See [`RoughDielectric`], with Beckmann's normals.
-            RoughDielectricBeckmann: $crate::bsdf::RoughDielectric<T, $crate::ndf::Beckmann<T>>, transmits, scalar,
+            RoughDielectricBeckmann: $crate::bsdf::RoughDielectric<T, $crate::ndf::Beckmann<T>>, transmits, closed,
                 "bsdf/rough_dielectric";
             /// See [`Compensated`], with Beckmann's normals.
             CompensatedBeckmann: $crate::bsdf::Compensated<T, $crate::ndf::Beckmann<T>>, reflects, scalar,

@@ -1,6 +1,8 @@
 //! Elements and lobes that the tests of the batch functions share.
 #![allow(dead_code, reason = "no test file uses all of it")]
 
+pub(crate) mod outcome;
+
 use specula_bsdf::batch::Directions;
 use specula_bsdf::bsdf::{
     CoatLayer, CoatScattering, CoatedDiffuse, Compensated, CompensatedDielectric,
@@ -11,7 +13,7 @@ use specula_bsdf::bsdf::{
 use specula_bsdf::energy::{EnergyModel, FmsVariant};
 use specula_bsdf::fresnel::{Conductor, F82Tint, Reflectance, Schlick};
 use specula_bsdf::math::{Stream, rgb, warp};
-use specula_bsdf::ndf::{Ggx, Masking};
+use specula_bsdf::ndf::{Beckmann, Ggx, Masking};
 use specula_bsdf::vndf::Sampler;
 use specula_bsdf::{Alpha, Real, Rgb, Vec3};
 use specula_testing::horizon;
@@ -191,6 +193,20 @@ macro_rules! for_every_lobe {
             let plastic = make::plastic::<$t>($alpha).with_sampler(sampler);
             $each!("Plastic", plastic);
         }
+        for reflectance in make::reflectances::<$t>() {
+            let metal = make::beckmann::<$t>($alpha, reflectance);
+            $each!("RoughConductorBeckmann", metal);
+            $each!(
+                "RoughConductorBeckmann",
+                metal.with_masking(specula_bsdf::ndf::Masking::Separable)
+            );
+        }
+        for eta in [1.5, 1.0 / 1.5] {
+            $each!(
+                "RoughDielectricBeckmann",
+                make::beckmann_glass::<$t>($alpha, eta)
+            );
+        }
         for gltf in make::gltfs::<$t>($alpha) {
             $each!("Gltf", gltf);
         }
@@ -223,6 +239,28 @@ pub(crate) const SAMPLERS: [Sampler; 4] = [
 
 pub(crate) fn metal<T: Real>(alpha: [f32; 2], reflectance: Reflectance<T>) -> RoughConductor<T> {
     RoughConductor::new(ggx(alpha), reflectance).with_masking(Masking::HeightCorrelated)
+}
+
+pub(crate) fn beckmann<T: Real>(
+    [x, y]: [f32; 2],
+    reflectance: Reflectance<T>,
+) -> RoughConductor<T, Beckmann<T>> {
+    let ndf = Beckmann::new(Alpha {
+        x: single(x),
+        y: single(y),
+    });
+    RoughConductor::new(ndf, reflectance)
+}
+
+pub(crate) fn beckmann_glass<T: Real>(
+    [x, y]: [f32; 2],
+    eta: f32,
+) -> RoughDielectric<T, Beckmann<T>> {
+    let ndf = Beckmann::new(Alpha {
+        x: single(x),
+        y: single(y),
+    });
+    RoughDielectric::new(ndf, single(eta))
 }
 
 pub(crate) fn glass<T: Real>(alpha: [f32; 2], eta: f32) -> RoughDielectric<T> {

@@ -5,10 +5,10 @@ mod albedo_table;
 mod sheen;
 mod uncoated;
 
+use super::in_columns::InColumns;
 use super::principled::terms::schlick_weight;
 use super::{Bsdf, BsdfSample, Transport};
 use crate::alpha::Alpha;
-use crate::batch::InColumns;
 use crate::fresnel::{dielectric, refract};
 use crate::math::{Frame, Real, Rgb, Vec3, vec3, warp};
 use crate::ndf::{Ggx, Masking, Ndf};

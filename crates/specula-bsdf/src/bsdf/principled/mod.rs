@@ -6,8 +6,8 @@ mod solid;
 pub(super) mod terms;
 mod thin;
 
+use super::in_columns::InColumns;
 use super::{Bsdf, BsdfSample, Transport};
-use crate::batch::InColumns;
 use crate::math::{Real, Rgb, Vec3};
 use opaque::{COLUMNS, Opaque};
 use solid::Solid;
