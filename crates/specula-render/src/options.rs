@@ -206,6 +206,8 @@ impl RenderOptions {
             regularize: _,
             texture_filter,
             filter_normal_maps,
+            // Of the same shapes, within the rounding of their triangles.
+            triangulate_quadrics: _,
         } = self;
         // Not which noise: a film goes on to a smaller one as if that had been asked for at first.
         let spread = if noise.is_some() { ", adaptive" } else { "" };
