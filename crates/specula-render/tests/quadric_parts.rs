@@ -62,7 +62,9 @@ fn white_parts_vanish_in_a_uniform_sky() {
                 let place = DMat4::from_translation(centre.into())
                     * DMat4::from_rotation_y(0.4)
                     * DMat4::from_scale(DVec3::splat(scale));
-                scene.shapes.push(shape(Geometry::QuadricPart(part), place, m));
+                scene
+                    .shapes
+                    .push(shape(Geometry::QuadricPart(part), place, m));
                 scene.lights.push(constant_sky(1.0));
                 let picture = render(&scene, 32, 200, Strategy::Mis);
                 let what = format!("{kind_name} {name} at scale {scale}, shifted {shift}");
@@ -123,7 +125,9 @@ fn gallery(moves: bool) -> Scene {
             });
         }
         scene.shapes.push(whole);
-        object.shapes.push(shape(Geometry::QuadricPart(part), at(x, 0.0), brushed));
+        object
+            .shapes
+            .push(shape(Geometry::QuadricPart(part), at(x, 0.0), brushed));
     }
     scene.objects.push(object);
     scene.instances.push(ObjectInstance {
@@ -163,7 +167,10 @@ fn pictures_are_those_of_the_triangles() {
         });
         let [(a, a_error), (b, b_error)] = [&exact, &triangles].map(mean);
         let z = (a - b) / a_error.hypot(b_error);
-        assert!(z.abs() < 3.0 && (a / b - 1.0).abs() < 2e-3, "{a} +- {a_error}, {b} +- {b_error}");
+        assert!(
+            z.abs() < 3.0 && (a / b - 1.0).abs() < 2e-3,
+            "{a} +- {a_error}, {b} +- {b_error}"
+        );
         // Of 8x8 tiles, whose errors are mostly common: nothing is inside out, turned or left out.
         for tile in 0..64_usize {
             let pixels = (0..64_usize).map(|i| (tile / 8 * 8 + i / 8) * 64 + tile % 8 * 8 + i % 8);

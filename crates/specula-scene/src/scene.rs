@@ -124,7 +124,8 @@ impl Scene {
                 let mesh = *made.entry(part.key()).or_insert_with(|| {
                     let mut mesh = part.mesh();
                     // Parts that are thinner than numbers can tell have no triangles.
-                    let is_sound = crate::mesh::clean(&mut mesh).is_ok() && !mesh.triangles.is_empty();
+                    let is_sound =
+                        crate::mesh::clean(&mut mesh).is_ok() && !mesh.triangles.is_empty();
                     is_sound.then(|| {
                         meshes.push(mesh);
                         MeshId(meshes.len() - 1)

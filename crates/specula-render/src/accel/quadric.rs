@@ -95,14 +95,12 @@ impl Quadric {
     }
 }
 
-/// The least and the greatest coordinates, padded by a millionth of the size and of the distance from the origin.
+/// The least and the greatest coordinates, padded by a millionth of the size.
 fn bounds_of_part(part: &QuadricPart, to_group: &DAffine3) -> Bounds {
     let rows = to_group.matrix3.transpose();
-    let rows = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| part.least_along(row));
-    let least = to_group.translation + DVec3::from(rows);
-    let rows = to_group.matrix3.transpose();
-    let rows = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| -part.least_along(-row));
-    let greatest = to_group.translation + DVec3::from(rows);
+    let rows = [rows.x_axis, rows.y_axis, rows.z_axis];
+    let least = to_group.translation + DVec3::from(rows.map(|row| part.least_along(row)));
+    let greatest = to_group.translation - DVec3::from(rows.map(|row| part.least_along(-row)));
     let pad = 1e-6 * (greatest - least).max_element();
     Bounds {
         min: (least - pad).to_array().map(f32::of),

@@ -12,8 +12,8 @@ use crate::scene::{
     EnvironmentMapping, Film, Filter, FloatParam, Geometry, GltfMaterial, HairMaterial,
     HairPigment, ImageId, ImageProjection, Interpolation, LensInterface, LensSystem, Light,
     Material, MaterialId, MaterialKind, MeasuredId, Mesh, MeshId, MicrofacetDistribution, Motion,
-    NoiseKind, Object, ObjectId, ObjectInstance, PrincipledMaterial, Profile, Projection, QuadricPart,
-    Roughness, RoughnessMapping, Shape, SpotFalloff, StopPicture, Texture, TextureId,
+    NoiseKind, Object, ObjectId, ObjectInstance, PrincipledMaterial, Profile, Projection,
+    QuadricPart, Roughness, RoughnessMapping, Shape, SpotFalloff, StopPicture, Texture, TextureId,
     TextureMapping, UvMapping, Wrap,
 };
 

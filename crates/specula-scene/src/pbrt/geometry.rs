@@ -191,10 +191,7 @@ fn geometries(
             Slot::Ready(geometry) => Some(geometry),
             Slot::Nothing => None,
         };
-        ShapeGeometry {
-            geometry,
-            pieces,
-        }
+        ShapeGeometry { geometry, pieces }
     });
     resolved.collect()
 }

@@ -52,9 +52,15 @@ impl QuadricPart {
 
     /// What is wrong with its numbers; `None`: nothing.
     pub(crate) fn fault(&self) -> Option<&'static str> {
-        let (Self::Sphere { radius, phi_max, .. }
-        | Self::Cylinder { radius, phi_max, .. }
-        | Self::Disk { radius, phi_max, .. }) = *self;
+        let (Self::Sphere {
+            radius, phi_max, ..
+        }
+        | Self::Cylinder {
+            radius, phi_max, ..
+        }
+        | Self::Disk {
+            radius, phi_max, ..
+        }) = *self;
         if !(radius > 0.0 && radius.is_finite()) {
             return Some("its radius is not above 0");
         }
@@ -331,9 +337,14 @@ mod tests {
             let mesh = part.mesh();
             for i in 0..200 {
                 let (sin, cos) = (0.731 * f64::from(i)).sin_cos();
-                let w = DVec3::new(cos, sin, f64::from(i % 11 - 5) * 0.4) * (1.0 + 0.01 * f64::from(i));
+                let w =
+                    DVec3::new(cos, sin, f64::from(i % 11 - 5) * 0.4) * (1.0 + 0.01 * f64::from(i));
                 let along = |p: &[f32; 3]| w.dot(DVec3::from(p.map(f64::from)));
-                let found = mesh.positions.iter().map(along).fold(f64::INFINITY, f64::min);
+                let found = mesh
+                    .positions
+                    .iter()
+                    .map(along)
+                    .fold(f64::INFINITY, f64::min);
                 let least = part.least_along(w);
                 let slack = w.length() * 2.0;
                 assert!(

@@ -14,8 +14,8 @@ use std::ops::RangeInclusive;
 use glam::{DVec3, DVec4};
 
 use super::mesh_error;
-use crate::grid;
 use crate::error::SceneError;
+use crate::grid;
 use crate::num::f32_of;
 use crate::pbrt::context::Entity;
 use crate::scene::Mesh;

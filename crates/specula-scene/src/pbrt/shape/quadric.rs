@@ -17,9 +17,8 @@ pub(super) fn read(entity: &Entity) -> Result<Geometry, SceneError> {
         let height = f32_of(params.float("height", 0.0)?);
         let inner = params.float_from_zero("innerradius", 0.0)?;
         if f32_of(inner) >= f32_of(radius) {
-            let message = format!(
-                "\"innerradius\": expected less than the radius {radius}, found {inner}"
-            );
+            let message =
+                format!("\"innerradius\": expected less than the radius {radius}, found {inner}");
             return Err(wrong(&params.place_of("innerradius"), message));
         }
         let (radius, inner) = (f32_of(radius), f32_of(inner));
