@@ -154,7 +154,7 @@ fn pictures_are_those_of_the_triangles() {
         let scene = gallery(moves);
         let [exact, triangles] = [false, true].map(|triangulate_quadrics| {
             let options = RenderOptions {
-                samples_per_pixel: 64,
+                samples_per_pixel: 16,
                 max_depth: 4,
                 triangulate_quadrics,
                 ..RenderOptions::default()
@@ -162,7 +162,7 @@ fn pictures_are_those_of_the_triangles() {
             let prepared = PreparedScene::new(&scene, &options).unwrap();
             assert!(prepared.light_count() > 500, "triangles of the lamp");
             let mut renderer = Renderer::new(&prepared, options);
-            renderer.render_pass(64, &AtomicBool::new(false));
+            renderer.render_pass(16, &AtomicBool::new(false));
             renderer.film().picture()
         });
         let [(a, a_error), (b, b_error)] = [&exact, &triangles].map(mean);
