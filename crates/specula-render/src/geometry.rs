@@ -13,6 +13,7 @@ mod flat;
 mod footprint;
 mod hit;
 mod partials;
+mod quadric_parts;
 
 use glam::DMat4;
 use rayon::prelude::*;
@@ -77,7 +78,7 @@ impl ShapeRecord {
     }
 }
 
-/// A sphere or a disk in its group.
+/// A sphere, a disk, a cylinder or a part of one in its group.
 #[derive(Clone, Debug)]
 pub(crate) struct PlacedQuadric {
     pub(crate) shape: QuadricShape,
@@ -240,6 +241,12 @@ impl Geometry {
         &self.groups[placement.group as usize]
     }
 
+    /// Whether there are parts of quadrics, which shaders have not.
+    pub(crate) fn has_quadric_parts(&self) -> bool {
+        let is_part = |q: &PlacedQuadric| matches!(q.shape, QuadricShape::Part(_));
+        self.groups.iter().any(|g| g.quadrics.iter().any(is_part))
+    }
+
     /// Whether all shapes, in the world and in the space of their group, are near enough for rays.
     pub(crate) fn is_within_reach(&self) -> bool {
         let near = |p: &[f32; 3]| p.iter().all(|x| x.abs() <= FARTHEST);
@@ -308,13 +315,9 @@ impl PlacedQuadric {
 
     /// A bound on its coordinates.
     fn reach(&self) -> f64 {
-        let (radius, height) = match self.shape {
-            QuadricShape::Sphere { radius } => (radius, 0.0),
-            QuadricShape::Disk { radius, height } => (radius, height.abs()),
-        };
         let m = &self.to_group;
         let axes = [m.x_axis, m.y_axis, m.z_axis].map(|a| a.truncate().length());
-        m.w_axis.truncate().length() + axes.iter().sum::<f64>() * radius.max(height)
+        m.w_axis.truncate().length() + axes.iter().sum::<f64>() * self.shape.reach()
     }
 }
 

@@ -252,7 +252,7 @@ fn moving_placements(scene: &Scene) -> usize {
 fn mesh_of(shape: &Shape) -> Option<usize> {
     match shape.geometry {
         Geometry::Mesh(mesh) => Some(mesh.0),
-        Geometry::Sphere { .. } | Geometry::Disk { .. } => None,
+        Geometry::Sphere { .. } | Geometry::Disk { .. } | Geometry::QuadricPart(_) => None,
     }
 }
 

@@ -159,6 +159,8 @@ impl PreparedScene {
     ) -> Result<Self, PrepareError> {
         let view = View::new(&scene.camera, &scene.film, options)?;
         options.texture_filter.apply(&mut scene);
+        // Lights are sampled by triangles.
+        scene.triangulate_quadric_parts(|s| options.triangulate_quadrics || s.emission.is_some());
         let mut textures = Textures::new(&mut scene);
         if options.filter_normal_maps {
             textures.filter_normal_maps(&scene);

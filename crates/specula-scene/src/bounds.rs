@@ -151,6 +151,13 @@ pub(crate) fn of_geometry(meshes: &[Mesh], geometry: &Geometry) -> BoundingBox {
                 max: DVec3::new(r, r, z),
             }
         }
+        Geometry::QuadricPart(part) => {
+            let least = |sign: f64| DVec3::AXES.map(|axis| sign * part.least_along(axis * sign));
+            BoundingBox {
+                min: DVec3::from(least(1.0)),
+                max: DVec3::from(least(-1.0)),
+            }
+        }
     }
 }
 

@@ -39,6 +39,7 @@ pub mod features;
 mod fingerprint;
 mod format;
 mod gltf;
+mod grid;
 pub mod image;
 mod limits;
 pub mod material_text;

@@ -63,7 +63,12 @@ impl Press {
         };
         let mut pressed = shape.clone();
         pressed.motion = None;
-        let is_kept = match shape.geometry {
+        if let Geometry::QuadricPart(part) = shape.geometry {
+            // The mesh that is pressed takes its place.
+            meshes.push(part.mesh());
+            pressed.geometry = Geometry::Mesh(MeshId(meshes.len() - 1));
+        }
+        let is_kept = match pressed.geometry {
             Geometry::Mesh(MeshId(i)) => {
                 let count = meshes[i].positions.len() as u64;
                 self.vertices = self.vertices.checked_sub(count).ok_or_else(|| {
@@ -99,6 +104,7 @@ impl Press {
                 pressed.to_world = disk(to_world, [DVec3::X, DVec3::Y], normal, centre);
                 is_invertible(&pressed.to_world) && spans(&pressed.to_world)
             }
+            Geometry::QuadricPart(_) => false,
         };
         Ok(match is_kept {
             true => Pressed::Flat(Box::new(pressed)),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::bounds::{self, BoundingBox};
 use crate::scene::{
     Camera, EnvironmentMapping, Film, Geometry, ImageProjection, Light, MaterialKind, NoiseKind,
-    Scene, Settings, Shape, Texture,
+    QuadricPart, Scene, Settings, Shape, Texture,
 };
 
 /// A picture's name and size.
@@ -58,7 +58,7 @@ impl Summary {
     pub fn of(scene: &Scene) -> Self {
         let mesh_triangles = |shape: &Shape| match shape.geometry {
             Geometry::Mesh(id) => scene.meshes[id.0].triangles.len() as u64,
-            Geometry::Sphere { .. } | Geometry::Disk { .. } => 0,
+            Geometry::Sphere { .. } | Geometry::Disk { .. } | Geometry::QuadricPart(_) => 0,
         };
         let in_object = |i: usize| {
             scene.objects[i]
@@ -124,6 +124,9 @@ fn shape_kind(shape: &Shape) -> &'static str {
         Geometry::Mesh(_) => "mesh",
         Geometry::Sphere { .. } => "sphere",
         Geometry::Disk { .. } => "disk",
+        Geometry::QuadricPart(QuadricPart::Sphere { .. }) => "partial sphere",
+        Geometry::QuadricPart(QuadricPart::Cylinder { .. }) => "cylinder",
+        Geometry::QuadricPart(QuadricPart::Disk { .. }) => "partial disk",
     }
 }
 

@@ -260,6 +260,10 @@ impl Scene {
                 )?;
                 ensure(height.is_finite(), what, "its height is not finite")
             }
+            Geometry::QuadricPart(part) => match part.fault() {
+                Some(fault) => ensure(false, what, fault),
+                None => Ok(()),
+            },
         }
     }
 

@@ -406,6 +406,11 @@ impl Pack {
                     t[lane] = quadric::disk(o(lane), d(lane), radius, height);
                 }
             }
+            QuadricShape::Part(part) => {
+                for lane in 0..PACK {
+                    t[lane] = quadric::part_distance(o(lane), d(lane), &part);
+                }
+            }
             QuadricShape::Sphere { radius } => {
                 let mut some = 0;
                 for lane in 0..PACK {

@@ -38,6 +38,8 @@ fn flatten_quadric(quadric: &quadric::PreparedQuadric, to: &mut Words) {
     let (kind, radius, height) = match quadric.shape() {
         QuadricShape::Sphere { radius } => (codes::QUADRIC_SPHERE, radius, 0.0),
         QuadricShape::Disk { radius, height } => (codes::QUADRIC_DISK, radius, height),
+        // Named among what is missing.
+        QuadricShape::Part(_) => (codes::QUADRIC_DISK, 0.0, 0.0),
     };
     to.id(kind);
     to.floats([radius, height].map(crate::convert::narrow));

@@ -1,7 +1,8 @@
-//! Spheres and disks under any affine transform, intersected in double precision.
+//! Spheres, disks, cylinders and parts of them under any affine transform, intersected in double precision.
 
 use glam::{DAffine3, DMat4, DVec3};
 use specula_bsdf::{Real, Vec3};
+use specula_scene::scene::QuadricPart;
 
 use super::input::invertible;
 use super::{Bounds, Ray};
@@ -21,6 +22,25 @@ pub enum QuadricShape {
         /// Its z.
         height: f64,
     },
+    /// A part of either, or a cylinder.
+    Part(QuadricPart),
+}
+
+impl QuadricShape {
+    /// A bound on the coordinates of its points.
+    pub(crate) fn reach(&self) -> f64 {
+        match *self {
+            Self::Sphere { radius } => radius,
+            Self::Disk { radius, height } => radius.max(height.abs()),
+            Self::Part(QuadricPart::Sphere { radius, .. }) => f64::from(radius),
+            Self::Part(QuadricPart::Cylinder { radius, z, .. }) => {
+                f64::from(z[0].abs().max(z[1].abs()).max(radius))
+            }
+            Self::Part(QuadricPart::Disk { radius, height, .. }) => {
+                f64::from(height.abs().max(radius))
+            }
+        }
+    }
 }
 
 /// A quadric in the space of its group.
@@ -38,6 +58,11 @@ impl Quadric {
         let (radius, height) = match self.shape {
             QuadricShape::Sphere { radius } => (radius, 0.0),
             QuadricShape::Disk { radius, height } => (radius, height),
+            QuadricShape::Part(
+                QuadricPart::Sphere { radius, .. }
+                | QuadricPart::Cylinder { radius, .. }
+                | QuadricPart::Disk { radius, .. },
+            ) => (f64::from(radius), self.shape.reach()),
         };
         radius.is_finite() && radius > 0.0 && height.is_finite() && invertible(&self.to_group)
     }
@@ -51,6 +76,7 @@ impl Quadric {
         let (radius, height, flat) = match self.shape {
             QuadricShape::Sphere { radius } => (radius, 0.0, 1.0),
             QuadricShape::Disk { radius, height } => (radius, height, 0.0),
+            QuadricShape::Part(part) => return bounds_of_part(&part, &to_group),
         };
         let centre = to_group.transform_point3(DVec3::new(0.0, 0.0, height));
         let rows = to_group.matrix3.transpose();
@@ -67,6 +93,20 @@ impl Quadric {
         }
         .padded(0.0)
     }
+}
+
+/// The least and the greatest coordinates, padded by a millionth of the size.
+fn bounds_of_part(part: &QuadricPart, to_group: &DAffine3) -> Bounds {
+    let rows = to_group.matrix3.transpose();
+    let rows = [rows.x_axis, rows.y_axis, rows.z_axis];
+    let least = to_group.translation + DVec3::from(rows.map(|row| part.least_along(row)));
+    let greatest = to_group.translation - DVec3::from(rows.map(|row| part.least_along(-row)));
+    let pad = 1e-6 * (greatest - least).max_element();
+    Bounds {
+        min: (least - pad).to_array().map(f32::of),
+        max: (greatest + pad).to_array().map(f32::of),
+    }
+    .padded(0.0)
 }
 
 /// A quadric, ready to be intersected.
@@ -95,6 +135,7 @@ impl PreparedQuadric {
         let (o, d) = self.enter(wide(ray.origin), wide(ray.direction));
         match self.shape {
             QuadricShape::Disk { radius, height } => disk(o, d, radius, height),
+            QuadricShape::Part(part) => part_distance(o, d, &part),
             QuadricShape::Sphere { radius } => {
                 let near = Approach::new(o, d, radius);
                 if near.hits() {
@@ -136,6 +177,85 @@ pub(super) fn disk(o: [f64; 3], d: [f64; 3], radius: f64, height: f64) -> f32 {
     f32::of(if inside { t } else { f64::NAN })
 }
 
+/// The least `t > 0` at which a ray hits a part of a quadric; NaN where it misses.
+///
+/// A hit is on the part where pbrt-v4 says so: between the heights, and at an azimuth up to the greatest.
+#[inline(never)]
+pub(super) fn part_distance(o: [f64; 3], d: [f64; 3], part: &QuadricPart) -> f32 {
+    let roots = match *part {
+        QuadricPart::Disk { height, .. } => {
+            let t = (f64::from(height) - o[2]) / d[2];
+            [t, t]
+        }
+        QuadricPart::Sphere { radius, .. } => {
+            let radius = f64::from(radius);
+            roots(o, d, radius)
+        }
+        QuadricPart::Cylinder { radius, .. } => {
+            let flat = |v: [f64; 3]| [v[0], v[1], 0.0];
+            roots(flat(o), flat(d), f64::from(radius))
+        }
+    };
+    for t in roots {
+        let [x, y, z] = [0, 1, 2].map(|k: usize| o[k] + t * d[k]);
+        if t > 0.0 && is_on_part(part, x, y, z) {
+            return f32::of(t);
+        }
+    }
+    f32::NAN
+}
+
+/// Both roots in order; NaN where there are none.
+fn roots(o: [f64; 3], d: [f64; 3], radius: f64) -> [f64; 2] {
+    let near = Approach::new(o, d, radius);
+    if near.hits() {
+        let (near, far) = near.roots(o, radius);
+        [near, far]
+    } else {
+        [f64::NAN; 2]
+    }
+}
+
+/// Whether a point of the whole quadric is on the part.
+fn is_on_part(part: &QuadricPart, x: f64, y: f64, z: f64) -> bool {
+    let (phi_max, is_within) = match *part {
+        QuadricPart::Sphere {
+            radius,
+            z: [low, high],
+            phi_max,
+        } => {
+            let above = low <= -radius || z >= f64::from(low);
+            let below = high >= radius || z <= f64::from(high);
+            (phi_max, above && below)
+        }
+        QuadricPart::Cylinder {
+            z: [low, high],
+            phi_max,
+            ..
+        } => (phi_max, z >= f64::from(low) && z <= f64::from(high)),
+        QuadricPart::Disk {
+            radius,
+            inner,
+            phi_max,
+            ..
+        } => {
+            let squared = x * x + y * y;
+            let [inner, radius] = [inner, radius].map(|r| f64::from(r) * f64::from(r));
+            (phi_max, squared >= inner && squared <= radius)
+        }
+    };
+    if !is_within || phi_max >= QuadricPart::TURN {
+        return is_within;
+    }
+    let phi = y.atan2(x);
+    let phi = if phi < 0.0 {
+        phi + core::f64::consts::TAU
+    } else {
+        phi
+    };
+    phi <= f64::from(phi_max)
+}
+
 /// The intersection of a ray with a sphere: terms of the quadratic equation.
 ///
 /// The discriminant comes from the vector between the centre and the ray's closest point, the roots
@@ -171,12 +291,18 @@ impl Approach {
     /// `t` of the hit, if there is one; not positive where the sphere lies behind.
     #[inline(always)]
     pub(super) fn t(&self, o: [f64; 3], radius: f64) -> f32 {
+        let (near, far) = self.roots(o, radius);
+        f32::of(if near > 0.0 { near } else { far })
+    }
+
+    /// Both roots, the lesser first.
+    #[inline(always)]
+    fn roots(&self, o: [f64; 3], radius: f64) -> (f64, f64) {
         let Self { a, b, discriminant } = *self;
         let distance = DVec3::from_array(o).length();
         let q = b + (a * discriminant).sqrt().copysign(b);
         let c = (distance - radius) * (distance + radius);
         let (t0, t1) = (c / q, q / a);
-        let (near, far) = if t0 < t1 { (t0, t1) } else { (t1, t0) };
-        f32::of(if near > 0.0 { near } else { far })
+        if t0 < t1 { (t0, t1) } else { (t1, t0) }
     }
 }

@@ -87,6 +87,9 @@ impl PreparedScene {
         if self.camera.has_lenses() {
             missing.push("camera lenses".to_owned());
         }
+        if self.geometry.has_quadric_parts() {
+            missing.push("parts of quadrics, prepared without `triangulate_quadrics`".to_owned());
+        }
         if self.lights.has_portals() {
             missing.push("portals".to_owned());
         }

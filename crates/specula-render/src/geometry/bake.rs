@@ -154,6 +154,10 @@ impl<'a> Baker<'a> {
                     group.add_quadric(QuadricShape::Disk { radius, height }, shape);
                     true
                 }
+                SceneGeometry::QuadricPart(part) => {
+                    group.add_quadric(QuadricShape::Part(part), shape);
+                    true
+                }
             };
             let radiance = shape
                 .emission
@@ -189,7 +193,9 @@ impl<'a> Baker<'a> {
     fn hair_shape(&self, shape: &Shape) -> Option<HairShape> {
         let is_fibre = match shape.geometry {
             SceneGeometry::Mesh(mesh) => self.meshes[mesh.0].is_fibre,
-            SceneGeometry::Sphere { .. } | SceneGeometry::Disk { .. } => false,
+            SceneGeometry::Sphere { .. }
+            | SceneGeometry::Disk { .. }
+            | SceneGeometry::QuadricPart(_) => false,
         };
         self.hair[shape.material.0].then_some(match is_fibre {
             true => HairShape::Fibre,

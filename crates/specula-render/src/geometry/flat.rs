@@ -122,6 +122,8 @@ impl PlacedQuadric {
         let (kind, radius, height) = match self.shape {
             QuadricShape::Sphere { radius } => (codes::QUADRIC_SPHERE, radius, 0.0),
             QuadricShape::Disk { radius, height } => (codes::QUADRIC_DISK, radius, height),
+            // Named among what is missing.
+            QuadricShape::Part(_) => (codes::QUADRIC_DISK, 0.0, 0.0),
         };
         let record = to.offset();
         to.id(kind);

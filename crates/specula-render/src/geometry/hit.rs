@@ -2,7 +2,9 @@
 
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Rgb, Vec3};
+use specula_scene::scene::QuadricPart;
 
+use super::quadric_parts::uv_of_part;
 use super::{Geometry, GroupData, NONE, PlacedQuadric, normal_of, unit_or};
 use crate::accel::{Hit, QuadricShape, Ray};
 use crate::convert::{abs, id, narrow};
@@ -356,14 +358,15 @@ impl PlacedQuadric {
         } else {
             phi / TAU
         };
-        let v = match self.shape {
+        let [u, v] = match self.shape {
             // pbrt's v runs from -z to +z.
             QuadricShape::Sphere { radius } => {
-                1.0 - (q.z / narrow(radius)).clamp(-1.0, 1.0).acos() / PI
+                [u, 1.0 - (q.z / narrow(radius)).clamp(-1.0, 1.0).acos() / PI]
             }
             QuadricShape::Disk { radius, .. } => {
-                1.0 - (q.x * q.x + q.y * q.y).sqrt() / narrow(radius)
+                [u, 1.0 - (q.x * q.x + q.y * q.y).sqrt() / narrow(radius)]
             }
+            QuadricShape::Part(part) => uv_of_part(&part, q),
         };
         Surface {
             position: point.position,
@@ -387,6 +390,15 @@ impl PlacedQuadric {
         match self.shape {
             QuadricShape::Sphere { radius } => self.point_of_sphere(narrow(radius), near),
             QuadricShape::Disk { height, .. } => self.point_of_disk(narrow(height), near),
+            QuadricShape::Part(QuadricPart::Sphere { radius, .. }) => {
+                self.point_of_sphere(radius, near)
+            }
+            QuadricShape::Part(QuadricPart::Disk { height, .. }) => {
+                self.point_of_disk(height, near)
+            }
+            QuadricShape::Part(QuadricPart::Cylinder { radius, .. }) => {
+                self.point_of_cylinder(radius, near)
+            }
         }
     }
 
@@ -400,8 +412,14 @@ impl PlacedQuadric {
         const TOUCHING: f32 = 1e-3;
         let along = self.backward.vector(direction);
         let normal = match self.shape {
-            QuadricShape::Sphere { .. } => self.backward.point(near),
-            QuadricShape::Disk { .. } => Vec3::Z,
+            QuadricShape::Sphere { .. } | QuadricShape::Part(QuadricPart::Sphere { .. }) => {
+                self.backward.point(near)
+            }
+            QuadricShape::Disk { .. } | QuadricShape::Part(QuadricPart::Disk { .. }) => Vec3::Z,
+            QuadricShape::Part(QuadricPart::Cylinder { .. }) => {
+                let q = self.backward.point(near);
+                vec3(q.x, q.y, 0.0)
+            }
         };
         let cosine = normal.dot(along);
         let squared = TOUCHING * TOUCHING * normal.length_squared() * along.length_squared();
@@ -423,6 +441,14 @@ impl PlacedQuadric {
     pub(crate) fn point_of_disk(&self, height: f32, near: Vec3<f32>) -> QuadricPoint {
         let q = self.backward.point(near);
         self.point_at(vec3(q.x, q.y, height), Vec3::Z)
+    }
+
+    /// [`PlacedQuadric::point_near`] of a cylinder.
+    #[inline(always)]
+    pub(crate) fn point_of_cylinder(&self, radius: f32, near: Vec3<f32>) -> QuadricPoint {
+        let q = self.backward.point(near);
+        let n = unit_or(vec3(q.x, q.y, 0.0), Vec3::X);
+        self.point_at(vec3(n.x * radius, n.y * radius, q.z), n)
     }
 
     /// * `q`, `normal`: in the quadric's own space.

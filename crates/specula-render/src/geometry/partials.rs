@@ -2,6 +2,7 @@
 
 use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
+use specula_scene::scene::QuadricPart;
 
 use super::{Geometry, GroupData, PlacedQuadric, Surface, normal_of, unit_or};
 use crate::accel::QuadricShape;
@@ -122,21 +123,41 @@ impl PlacedQuadric {
         let radial = (q.x * q.x + q.y * q.y).sqrt();
         let outwards = unit_or(vec3(q.x, q.y, 0.0), Vec3::X);
         let around = vec3(-outwards.y, outwards.x, 0.0);
+        let sphere = |r: f32, [turn, rise]: [f32; 2]| {
+            let n = unit_or(q, Vec3::Z);
+            let sin = (n.x * n.x + n.y * n.y).sqrt();
+            // v runs from -z to +z.
+            let up = vec3(-outwards.x * n.z, -outwards.y * n.z, sin);
+            let dn = [around * (turn * sin), up * rise];
+            let dp = dn.map(|d| d * r);
+            (n, Partials { dp, dn })
+        };
         let (normal, partials) = match self.shape {
-            QuadricShape::Sphere { radius } => {
-                let r = narrow(radius);
-                let n = unit_or(q, Vec3::Z);
-                let sin = (n.x * n.x + n.y * n.y).sqrt();
-                // v runs from -z to +z.
-                let up = vec3(-outwards.x * n.z, -outwards.y * n.z, sin);
-                let dn = [around * (TAU * sin), up * PI];
-                (
-                    n,
-                    Partials {
-                        dp: dn.map(|d| d * r),
-                        dn,
-                    },
-                )
+            QuadricShape::Sphere { radius } => sphere(narrow(radius), [TAU, PI]),
+            QuadricShape::Part(QuadricPart::Sphere { radius, z, phi_max }) => {
+                let angle = |z: f32| f64::from(z / radius).clamp(-1.0, 1.0).acos();
+                let rise = angle(z[0]) - angle(z[1]);
+                sphere(radius, [phi_max, narrow(rise)])
+            }
+            QuadricShape::Part(QuadricPart::Cylinder { radius, z, phi_max }) => {
+                let turn = around * phi_max;
+                let partials = Partials {
+                    dp: [turn * radius, Vec3::Z * (z[1] - z[0])],
+                    dn: [turn, Vec3::ZERO],
+                };
+                (outwards, partials)
+            }
+            QuadricShape::Part(QuadricPart::Disk {
+                radius,
+                inner,
+                phi_max,
+                ..
+            }) => {
+                let partials = Partials {
+                    dp: [around * (phi_max * radial), outwards * (inner - radius)],
+                    dn: [Vec3::ZERO; 2],
+                };
+                (Vec3::Z, partials)
             }
             QuadricShape::Disk { radius, .. } => (
                 Vec3::Z,

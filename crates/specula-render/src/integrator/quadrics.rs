@@ -115,6 +115,14 @@ fn locate_on(
                 pick(places[i] == place, waiting.needs_tangent, &point, i, s);
             }
         }
+        QuadricShape::Part(_) => {
+            for i in from..to {
+                if places[i] == place {
+                    let point = quadric.point_near(s.position.get(i));
+                    pick(true, waiting.needs_tangent, &point, i, s);
+                }
+            }
+        }
     }
 }
 
@@ -150,9 +158,9 @@ mod tests {
     use glam::{DMat4, DVec3};
     use specula_bsdf::Vec3;
     use specula_bsdf::math::vec3;
-    use specula_scene::scene::{Geometry as SceneGeometry, Shape};
+    use specula_scene::scene::{Geometry as SceneGeometry, QuadricPart, Shape};
 
-    /// Forty spheres, more than wait at once, squeezed, turned and inside out, and a disk among them.
+    /// Forty spheres, more than wait at once, squeezed, turned and inside out, and a disk and parts among them.
     fn scene() -> PreparedScene {
         let mut scene = specula_scene::builtin::orbs();
         let material = scene.shapes[0].material;
@@ -167,6 +175,16 @@ mod tests {
                     radius: 1.2,
                     height: 0.1,
                 },
+                5 => SceneGeometry::QuadricPart(QuadricPart::Cylinder {
+                    radius: 0.8,
+                    z: [-0.7, 0.7],
+                    phi_max: QuadricPart::TURN,
+                }),
+                30 => SceneGeometry::QuadricPart(QuadricPart::Sphere {
+                    radius: 0.8,
+                    z: [-0.5, 0.8],
+                    phi_max: 4.0,
+                }),
                 _ => SceneGeometry::Sphere { radius: 0.8 },
             };
             let mut shape = Shape::new(geometry, place, material);

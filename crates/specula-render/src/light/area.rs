@@ -125,6 +125,7 @@ impl Area {
                     area: narrow(core::f64::consts::PI * cross.length()),
                 }
             }
+            QuadricShape::Part(_) => unreachable!("parts that emit are triangles"),
         }
     }
 

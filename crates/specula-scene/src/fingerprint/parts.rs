@@ -13,7 +13,7 @@ use crate::scene::{
     HairPigment, ImageId, ImageProjection, Interpolation, LensInterface, LensSystem, Light,
     Material, MaterialId, MaterialKind, MeasuredId, Mesh, MeshId, MicrofacetDistribution, Motion,
     NoiseKind, Object, ObjectId, ObjectInstance, PrincipledMaterial, Profile, Projection,
-    Roughness, RoughnessMapping, Shape, SpotFalloff, StopPicture, Texture, TextureId,
+    QuadricPart, Roughness, RoughnessMapping, Shape, SpotFalloff, StopPicture, Texture, TextureId,
     TextureMapping, UvMapping, Wrap,
 };
 
@@ -212,7 +212,12 @@ fields!(Mesh {
     triangles;
     is_fibre
 });
-variants!(Geometry { 0 => Mesh(id), 1 => Sphere { radius }, 2 => Disk { radius, height } });
+variants!(Geometry { 0 => Mesh(id), 1 => Sphere { radius }, 2 => Disk { radius, height }, 3 => QuadricPart(part) });
+variants!(QuadricPart {
+    0 => Sphere { radius, z, phi_max },
+    1 => Cylinder { radius, z, phi_max },
+    2 => Disk { radius, inner, height, phi_max },
+});
 fields!(Emission {
     radiance,
     two_sided

@@ -21,7 +21,6 @@ use crate::{obj, ply, serialized};
 pub(super) enum MeshSource {
     Rectangle,
     Cube,
-    Cylinder,
     File {
         path: PathBuf,
         format: Format,
@@ -41,7 +40,7 @@ impl MeshSource {
     /// The file that it comes from.
     fn path(&self) -> Option<&PathBuf> {
         match self {
-            Self::Rectangle | Self::Cube | Self::Cylinder => None,
+            Self::Rectangle | Self::Cube => None,
             Self::File { path, .. } | Self::Curves { path, .. } => Some(path),
         }
     }
@@ -165,7 +164,6 @@ fn build(source: &MeshSource, files: &Files, collects: bool) -> Result<BuiltMesh
     let (path, format, face_normals, flip_v) = match source {
         MeshSource::Rectangle => return Ok(plain(super::primitive::rectangle())),
         MeshSource::Cube => return Ok(plain(super::primitive::cube())),
-        MeshSource::Cylinder => return Ok(plain(super::primitive::cylinder())),
         MeshSource::Curves {
             path,
             basis,

@@ -1,15 +1,8 @@
-//! Meshes of `rectangle`, `cube` and `cylinder`, as Mitsuba lays out their coordinates.
-
-use std::f64::consts::TAU;
+//! Meshes of `rectangle` and `cube`, as Mitsuba lays out their coordinates, and the place of `cylinder`.
 
 use glam::{DMat4, DVec3, DVec4};
 
-use crate::num::f32_of;
 use crate::scene::Mesh;
-
-/// Sides of a cylinder's cross section. Its vertices lie on the cylinder, its normals are exact;
-/// in between it is too thin by up to `1 - cos(pi / 512)`, 2e-5 of the radius.
-const SIDES: u32 = 512;
 
 /// `[-1, 1]^2` in the plane z = 0, facing +z.
 pub(super) fn rectangle() -> Mesh {
@@ -52,26 +45,6 @@ pub(super) fn cube() -> Mesh {
     mesh
 }
 
-/// Radius 1 about the z axis from z = 0 to 1, without caps; `u = phi / 2 pi`, `v = z`.
-pub(super) fn cylinder() -> Mesh {
-    let mut mesh = Mesh::default();
-    for i in 0..=SIDES {
-        let share = f64::from(i) / f64::from(SIDES);
-        let (sin, cos) = (TAU * share).sin_cos();
-        let normal = [f32_of(cos), f32_of(sin), 0.0];
-        for z in [0.0, 1.0] {
-            mesh.positions.push([normal[0], normal[1], z]);
-            mesh.normals.push(normal);
-            mesh.uvs.push([f32_of(share), z]);
-        }
-    }
-    for i in (0..2 * SIDES).step_by(2) {
-        mesh.triangles.push([i, i + 2, i + 1]);
-        mesh.triangles.push([i + 1, i + 2, i + 3]);
-    }
-    mesh
-}
-
 /// The unit cylinder to one from `p0` to `p1`; `None` where they are the same point.
 ///
 /// The azimuth begins where the frame of Duff et al. 2017 puts it.
@@ -101,7 +74,7 @@ mod tests {
 
     #[test]
     fn windings_face_the_way_that_normals_do() {
-        for mesh in [rectangle(), cube(), cylinder()] {
+        for mesh in [rectangle(), cube()] {
             for t in &mesh.triangles {
                 let [a, b, c] = t.map(|i| vector(mesh.positions[i as usize]));
                 let normal = (b - a).cross(c - a);

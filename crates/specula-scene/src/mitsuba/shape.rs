@@ -19,7 +19,7 @@ use crate::num::f32_of;
 use crate::problems::NoteKind;
 use crate::scene::{
     ColourParam, Emission, FloatParam, Geometry, Material, MaterialKind, ObjectId, ObjectInstance,
-    Shape,
+    QuadricPart, Shape,
 };
 
 /// A shape before meshes are read.
@@ -222,7 +222,11 @@ impl Shapes {
                 let place = primitive::cylinder_placement(p0, p1, radius)
                     .ok_or_else(|| element.error("\"p0\" and \"p1\" are the same point"))?;
                 to_world *= place;
-                PendingGeometry::Mesh(self.meshes.ask(MeshSource::Cylinder, &element.place))
+                PendingGeometry::Ready(Geometry::QuadricPart(QuadricPart::Cylinder {
+                    radius: 1.0,
+                    z: [0.0, 1.0],
+                    phi_max: QuadricPart::TURN,
+                }))
             }
             "rectangle" => {
                 PendingGeometry::Mesh(self.meshes.ask(MeshSource::Rectangle, &element.place))

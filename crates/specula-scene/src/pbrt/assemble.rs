@@ -530,10 +530,10 @@ impl Builder<'_> {
         read: &ShapeGeometry,
         geometry: &Geometry,
     ) -> Result<Option<Emission>, SceneError> {
-        let area = self.area(read, geometry, shape);
+        let area = self.area(geometry, shape);
         let pieces = match *geometry {
             Geometry::Mesh(id) => read.pieces.unwrap_or(self.meshes[id.0].triangles.len()),
-            Geometry::Sphere { .. } | Geometry::Disk { .. } => 1,
+            Geometry::Sphere { .. } | Geometry::Disk { .. } | Geometry::QuadricPart(_) => 1,
         };
         let read = light::area(&mut self.context, entity, area, pieces).map(Some);
         let emission = entity.or(read, || None)?;
@@ -543,15 +543,13 @@ impl Builder<'_> {
     }
 
     /// Area of a shape; quadrics before their transform, as pbrt-v4 takes it.
-    fn area(&self, read: &ShapeGeometry, geometry: &Geometry, shape: &ShapeEntity) -> f64 {
+    fn area(&self, geometry: &Geometry, shape: &ShapeEntity) -> f64 {
         use std::f64::consts::PI;
-        if let Some(area) = read.own_area {
-            return area;
-        }
         match *geometry {
             Geometry::Mesh(id) => mesh::area(&self.meshes[id.0], &shape.to_world),
             Geometry::Sphere { radius } => 4.0 * PI * f64::from(radius).powi(2),
             Geometry::Disk { radius, .. } => PI * f64::from(radius).powi(2),
+            Geometry::QuadricPart(part) => part.area(),
         }
     }
 }

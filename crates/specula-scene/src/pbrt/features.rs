@@ -66,18 +66,18 @@ pub(crate) const FEATURES: &[Feature] = &[
     near(
         "shape",
         "sphere: zmin, zmax, phimax",
-        "triangles within 7.6e-5 radii of the surface",
+        "exact; those that emit and those on the GPU: triangles within 7.6e-5 radii of the surface",
     ),
     full("shape", "disk"),
     near(
         "shape",
         "disk: innerradius, phimax",
-        "triangles within 7.6e-5 radii of the outline",
+        "exact; those that emit and those on the GPU: triangles within 1.9e-5 radii of the outline",
     ),
     near(
         "shape",
         "cylinder",
-        "triangles within 7.6e-5 radii of the surface",
+        "exact; those that emit and those on the GPU: triangles within 1.9e-5 radii of the surface",
     ),
     near(
         "shape",

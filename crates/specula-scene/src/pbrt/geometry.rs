@@ -20,8 +20,6 @@ use crate::scene::{Geometry, Mesh, MeshId};
 pub(super) struct ShapeGeometry {
     /// `None` where the shape is left out.
     pub(super) geometry: Option<Geometry>,
-    /// Area in its own space, for quadrics that became meshes.
-    pub(super) own_area: Option<f64>,
     /// How many shapes pbrt-v4 makes of it; `None` for one per triangle.
     pub(super) pieces: Option<usize>,
 }
@@ -61,7 +59,6 @@ enum Slot {
 struct Jobs {
     list: Vec<Job>,
     files: HashMap<PathBuf, usize>,
-    recipes: HashMap<[u64; 5], usize>,
 }
 
 impl Jobs {
@@ -90,18 +87,6 @@ impl Jobs {
             }
         }
     }
-
-    fn recipe(&mut self, recipe: Recipe, place: &Place) -> usize {
-        let key = recipe.key();
-        if let Some(&job) = key.and_then(|k| self.recipes.get(&k)) {
-            return job;
-        }
-        let job = self.add(MeshSource::Recipe(recipe), place);
-        if let Some(key) = key {
-            self.recipes.insert(key, job);
-        }
-        job
-    }
 }
 
 /// Reads and checks all meshes and all pictures that the context was asked for.
@@ -117,15 +102,14 @@ pub(super) fn read(
     let mut left = context.files.limits().max_subdivided;
     for shape in shapes {
         let entity = &shape.entity;
-        let (mut own_area, mut pieces) = (None, None);
+        let mut pieces = None;
         let prepared = prepare(context, entity).map(Some);
         let Some(prepared) = entity.or(prepared, || None)? else {
-            slots.push((Slot::Nothing, own_area, pieces));
+            slots.push((Slot::Nothing, pieces));
             continue;
         };
         let slot = match prepared {
-            Prepared::Sphere { radius } => Slot::Ready(Geometry::Sphere { radius }),
-            Prepared::Disk { radius, height } => Slot::Ready(Geometry::Disk { radius, height }),
+            Prepared::Ready(geometry) => Slot::Ready(geometry),
             Prepared::Mesh(mesh) => Slot::Job(jobs.add(MeshSource::Mesh(mesh), &entity.place)),
             Prepared::File(path) => {
                 context.files.announce(&path);
@@ -140,14 +124,14 @@ pub(super) fn read(
                     context.problems.record(error)?;
                     // A check is not to take longer than a render.
                     jobs.forget_subdivisions();
-                    slots.push((Slot::Nothing, own_area, pieces));
+                    slots.push((Slot::Nothing, pieces));
                     continue;
                 }
-                (own_area, pieces) = (recipe.own_area(), recipe.pieces());
-                Slot::Job(jobs.recipe(recipe, &entity.place))
+                pieces = recipe.pieces();
+                Slot::Job(jobs.add(MeshSource::Recipe(recipe), &entity.place))
             }
         };
-        slots.push((slot, own_area, pieces));
+        slots.push((slot, pieces));
     }
     let files = context.files.clone();
     let collects = context.problems.is_check();
@@ -198,20 +182,16 @@ pub(super) fn read(
 
 /// The geometries of shapes, from those of the jobs.
 fn geometries(
-    slots: Vec<(Slot, Option<f64>, Option<usize>)>,
+    slots: Vec<(Slot, Option<usize>)>,
     of_jobs: &[Option<Geometry>],
 ) -> Vec<ShapeGeometry> {
-    let resolved = slots.into_iter().map(|(slot, own_area, pieces)| {
+    let resolved = slots.into_iter().map(|(slot, pieces)| {
         let geometry = match slot {
             Slot::Job(i) => of_jobs[i],
             Slot::Ready(geometry) => Some(geometry),
             Slot::Nothing => None,
         };
-        ShapeGeometry {
-            geometry,
-            own_area,
-            pieces,
-        }
+        ShapeGeometry { geometry, pieces }
     });
     resolved.collect()
 }

@@ -1,7 +1,6 @@
 //! `Shape`: geometry as the file gives it.
 
 mod curve;
-mod grid;
 mod heightfield;
 mod nurbs;
 mod patch;
@@ -20,8 +19,8 @@ use super::medium::Sides;
 use super::state::MaterialUse;
 use crate::Limits;
 use crate::error::{ErrorKind, SceneError};
-use crate::num::{f32_of, shorten};
-use crate::scene::{FloatParam, Mesh};
+use crate::num::shorten;
+use crate::scene::{FloatParam, Geometry, Mesh};
 
 /// A shape with its graphics state.
 pub(super) struct ShapeEntity {
@@ -40,15 +39,13 @@ pub(super) enum Prepared {
     Mesh(Mesh),
     File(PathBuf),
     Recipe(Recipe),
-    Sphere { radius: f32 },
-    Disk { radius: f32, height: f32 },
+    Ready(Geometry),
 }
 
 /// A mesh that is still to be made: this may take a while, and is done in parallel.
 pub(super) enum Recipe {
     Curve(curve::Curve),
     Patches(patch::Patches),
-    Quadric(quadric::Quadric),
     Revolved(revolved::Revolved),
     Subdivision(subdivision::Control),
 }
@@ -66,7 +63,6 @@ impl Recipe {
         match self {
             Self::Curve(curve) => curve.build(limits),
             Self::Patches(patches) => patches.build(limits),
-            Self::Quadric(quadric) => Ok(quadric.build()),
             Self::Revolved(revolved) => Ok(revolved.build()),
             Self::Subdivision(control) => control.build(limits),
         }
@@ -76,30 +72,14 @@ impl Recipe {
     pub(super) fn take_from(&self, left: &mut u64, limits: &Limits) -> Result<(), String> {
         match self {
             Self::Subdivision(control) => control.take_from(left, limits),
-            Self::Quadric(_) | Self::Revolved(_) | Self::Curve(_) | Self::Patches(_) => Ok(()),
-        }
-    }
-
-    /// A key that is equal for shapes that may share their mesh.
-    pub(super) fn key(&self) -> Option<[u64; 5]> {
-        match self {
-            Self::Quadric(quadric) => Some(quadric.key()),
-            Self::Revolved(_) | Self::Curve(_) | Self::Patches(_) | Self::Subdivision(_) => None,
-        }
-    }
-
-    /// Area in the shape's own space, from which pbrt-v4 computes the power of quadrics.
-    pub(super) fn own_area(&self) -> Option<f64> {
-        match self {
-            Self::Quadric(quadric) => Some(quadric.area()),
-            Self::Revolved(_) | Self::Curve(_) | Self::Patches(_) | Self::Subdivision(_) => None,
+            Self::Revolved(_) | Self::Curve(_) | Self::Patches(_) => Ok(()),
         }
     }
 
     /// How many shapes pbrt-v4 makes of it.
     pub(super) fn pieces(&self) -> Option<usize> {
         match self {
-            Self::Quadric(_) | Self::Revolved(_) => Some(1),
+            Self::Revolved(_) => Some(1),
             Self::Patches(patches) => Some(patches.len()),
             Self::Curve(curve) => Some(curve.pieces()),
             Self::Subdivision(_) => None,
@@ -135,16 +115,7 @@ pub(super) fn prepare(context: &mut Context, entity: &Entity) -> Result<Prepared
             };
             Ok(Prepared::File(context.resolve(name)))
         }
-        "sphere" | "disk" | "cylinder" => Ok(match quadric::Quadric::read(entity)? {
-            (quadric::Quadric::Sphere { radius, .. }, true) => Prepared::Sphere {
-                radius: f32_of(radius),
-            },
-            (quadric::Quadric::Disk { radius, height, .. }, true) => Prepared::Disk {
-                radius: f32_of(radius),
-                height: f32_of(height),
-            },
-            (quadric, _) => Prepared::Recipe(Recipe::Quadric(quadric)),
-        }),
+        "sphere" | "disk" | "cylinder" => Ok(Prepared::Ready(quadric::read(entity)?)),
         // Those of pbrt-v3, which tell that a file is one of it.
         "cone" | "paraboloid" | "hyperboloid" => Ok(Prepared::Recipe(Recipe::Revolved(
             revolved::Revolved::read(entity)?,

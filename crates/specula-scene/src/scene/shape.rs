@@ -3,6 +3,7 @@
 use glam::DMat4;
 
 use super::motion::Motion;
+use super::quadric_part::QuadricPart;
 use super::texture::{ColourParam, FloatParam};
 use super::{MaterialId, MeshId, ObjectId};
 
@@ -46,6 +47,8 @@ pub enum Geometry {
         /// Its z.
         height: f32,
     },
+    /// A part of a sphere or of a disk, or a cylinder.
+    QuadricPart(QuadricPart),
 }
 
 /// Emission of a shape.

@@ -114,5 +114,6 @@ fn lowest_of(meshes: &[Mesh], geometry: &Geometry, to_world: &DMat4) -> f64 {
             let centre = row.dot(DVec3::new(0.0, 0.0, f64::from(height)).extend(1.0));
             centre - f64::from(radius) * row.x.hypot(row.y)
         }
+        Geometry::QuadricPart(part) => row.w + part.least_along(row.truncate()),
     }
 }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use specula_bsdf::Rgb;
 
 use super::{WriteError, Writer, quoted, rgb_list};
-use crate::scene::{Channel, Emission, FloatParam, Geometry, Mesh, MeshId, Shape};
+use crate::scene::{Channel, Emission, FloatParam, Geometry, Mesh, MeshId, QuadricPart, Shape};
 
 /// Most triangles, and vertices, of a mesh within a text alone.
 const MOST_INLINE: usize = 20_000;
@@ -56,6 +56,7 @@ impl Writer<'_> {
             Geometry::Disk { radius, height } => {
                 format!("\"disk\" \"float radius\" [ {radius} ] \"float height\" [ {height} ]")
             }
+            Geometry::QuadricPart(part) => quadric_part(&part),
         };
         if shape.alpha != FloatParam::Value(1.0) {
             kind += &self.float_param("alpha", shape.alpha)?;
@@ -110,6 +111,32 @@ impl Writer<'_> {
         Ok(format!(
             "AreaLightSource \"diffuse\" {light} \"bool twosided\" [ {sides} ]\n"
         ))
+    }
+}
+
+/// A part of a quadric, with the angle in degrees.
+fn quadric_part(part: &QuadricPart) -> String {
+    let degrees = |phi: f32| f64::from(phi).to_degrees();
+    let cut = |kind: &str, radius: f32, [low, high]: [f32; 2], phi_max: f32| {
+        format!(
+            "\"{kind}\" \"float radius\" [ {radius} ] \"float zmin\" [ {low} ] \"float zmax\" [ {high} ] \
+             \"float phimax\" [ {} ]",
+            degrees(phi_max)
+        )
+    };
+    match *part {
+        QuadricPart::Sphere { radius, z, phi_max } => cut("sphere", radius, z, phi_max),
+        QuadricPart::Cylinder { radius, z, phi_max } => cut("cylinder", radius, z, phi_max),
+        QuadricPart::Disk {
+            radius,
+            inner,
+            height,
+            phi_max,
+        } => format!(
+            "\"disk\" \"float radius\" [ {radius} ] \"float innerradius\" [ {inner} ] \
+             \"float height\" [ {height} ] \"float phimax\" [ {} ]",
+            degrees(phi_max)
+        ),
     }
 }
 

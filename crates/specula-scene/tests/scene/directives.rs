@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use specula_scene::scene::{
-    Channel, ColourParam, EnvironmentMapping, Filter, Geometry, Light, Texture, TextureMapping,
-    UvMapping, Wrap,
+    Channel, ColourParam, EnvironmentMapping, Filter, Geometry, Light, QuadricPart, Texture,
+    TextureMapping, UvMapping, Wrap,
 };
 use specula_scene::{Loaded, Summary};
 
@@ -131,7 +131,7 @@ fn shapes() {
     assert_eq!(scene.meshes[subdivided.0].triangles.len(), 16);
     assert_eq!(
         scene.shapes[4].geometry, scene.shapes[5].geometry,
-        "half spheres of one size share their mesh"
+        "half spheres of one size"
     );
     let all = warnings(&loaded);
     assert_eq!(all, ["unused parameter \"float wobble\""]);
@@ -313,4 +313,47 @@ fn environments_are_square_or_latitude_longitude() {
         ]
     );
     assert_eq!(warnings(&loaded).len(), 1);
+}
+
+#[test]
+fn parts_of_quadrics_are_read_exactly_and_written_again() {
+    let loaded = load(
+        "WorldBegin
+         Shape \"sphere\" \"float radius\" 2 \"float zmin\" 1.5 \"float zmax\" -0.5 \"float phimax\" 90
+         Shape \"cylinder\" \"float radius\" 0.25 \"float zmax\" 3
+         Shape \"disk\" \"float radius\" 2 \"float innerradius\" 0.5 \"float height\" -1 \"float phimax\" 400
+         Shape \"sphere\" \"float radius\" 2 \"float zmin\" -9 \"float zmax\" 9",
+    )
+    .unwrap();
+    let found: Vec<Geometry> = loaded.scene.shapes.iter().map(|s| s.geometry).collect();
+    let expected = [
+        Geometry::QuadricPart(QuadricPart::Sphere {
+            radius: 2.0,
+            z: [-0.5, 1.5],
+            phi_max: core::f32::consts::FRAC_PI_2,
+        }),
+        Geometry::QuadricPart(QuadricPart::Cylinder {
+            radius: 0.25,
+            z: [-1.0, 3.0],
+            phi_max: QuadricPart::TURN,
+        }),
+        Geometry::QuadricPart(QuadricPart::Disk {
+            radius: 2.0,
+            inner: 0.5,
+            height: -1.0,
+            phi_max: QuadricPart::TURN,
+        }),
+        Geometry::Sphere { radius: 2.0 },
+    ];
+    assert_eq!(found, expected);
+    assert!(loaded.scene.validate().is_ok());
+    let path = std::path::Path::new("parts.pbrt");
+    let (text, _) = specula_scene::write_pbrt::pbrt_text(&loaded.scene, path).unwrap();
+    let again = load(&text).unwrap().scene;
+    let again: Vec<Geometry> = again.shapes.iter().map(|s| s.geometry).collect();
+    assert_eq!(again, expected);
+    let mut triangles = loaded.scene;
+    triangles.triangulate_quadric_parts(|_| true);
+    assert_eq!((triangles.meshes.len(), triangles.shapes.len()), (3, 4));
+    assert!(triangles.validate().is_ok());
 }

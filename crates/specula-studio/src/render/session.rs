@@ -244,6 +244,8 @@ fn options(scene: &Scene, changes: &Changes) -> RenderOptions {
         vndf_sampler: changes.sampler.unwrap_or(asked.vndf_sampler),
         resolution: Some([width, height]),
         crop: Some([0, width, 0, height]),
+        // Pages render the same arrays by WebGPU.
+        triangulate_quadrics: true,
         ..asked
     }
 }

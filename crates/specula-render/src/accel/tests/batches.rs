@@ -1,6 +1,7 @@
 //! Batches against rays one by one, bit for bit.
 
 use glam::{DMat4, DQuat, DVec3};
+use specula_scene::scene::QuadricPart;
 
 #[cfg(target_arch = "x86_64")]
 use super::super::avx2::Avx2;
@@ -8,7 +9,7 @@ use super::super::interleaved;
 use super::super::kernel::Portable;
 use super::*;
 
-/// Spheres and disks, some squeezed.
+/// Spheres, disks and parts of cylinders, some squeezed.
 fn quadrics(count: usize, random: &mut Random) -> Vec<Quadric> {
     let wide = |v: Vec3<f32>| DVec3::from_array(v.to_array().map(f64::from));
     (0..count)
@@ -18,12 +19,17 @@ fn quadrics(count: usize, random: &mut Random) -> Vec<Quadric> {
             let scale = wide(random.vector()).abs() + 0.5;
             let at = wide(random.vector());
             Quadric {
-                shape: match i % 2 {
+                shape: match i % 3 {
                     0 => QuadricShape::Sphere { radius },
-                    _ => QuadricShape::Disk {
+                    1 => QuadricShape::Disk {
                         radius,
                         height: 0.1,
                     },
+                    _ => QuadricShape::Part(QuadricPart::Cylinder {
+                        radius: 0.3,
+                        z: [-0.3, 0.4],
+                        phi_max: 5.0,
+                    }),
                 },
                 to_group: DMat4::from_scale_rotation_translation(scale, turn, at),
             }
@@ -304,6 +310,7 @@ fn grazing(
         let (radius, height) = match quadric.shape {
             QuadricShape::Sphere { radius } => (radius, 0.0),
             QuadricShape::Disk { radius, height } => (radius, height),
+            QuadricShape::Part(part) => panic!("{part:?} has tests of its own"),
         };
         // In its own space spheres are round: of what is seen from the origin the rim.
         let own = quadric.to_group.inverse();
@@ -316,7 +323,7 @@ fn grazing(
                 let cos = (r / d).min(1.0);
                 from / d * (r * cos) + side * (r * (1.0 - cos * cos).sqrt())
             }
-            QuadricShape::Disk { .. } => {
+            QuadricShape::Disk { .. } | QuadricShape::Part(_) => {
                 let flat = DVec3::new(side.x, side.y, 0.0).normalize_or_zero();
                 flat * (radius * off) + DVec3::Z * height
             }

@@ -5,6 +5,7 @@ mod degenerate;
 mod instances;
 mod large;
 mod moving;
+mod quadric_parts;
 mod quadrics;
 mod reference;
 

@@ -1,7 +1,8 @@
 //! pbrt-v3's `heightfield`: heights over a grid of the unit square, as the triangles that it is there.
 
-use super::{grid, mesh_error};
+use super::mesh_error;
 use crate::error::SceneError;
+use crate::grid;
 use crate::num::f32_of;
 use crate::pbrt::context::Entity;
 use crate::scene::Mesh;

@@ -13,8 +13,9 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec3, DVec4};
 
-use super::{grid, mesh_error};
+use super::mesh_error;
 use crate::error::SceneError;
+use crate::grid;
 use crate::num::f32_of;
 use crate::pbrt::context::Entity;
 use crate::scene::Mesh;

@@ -1,19 +1,20 @@
 //! pbrt-v3's `cone`, `paraboloid` and `hyperboloid`: a profile turned about z, as triangles.
 //!
-//! A cone has 256 edges to the full turn, as the quadrics of pbrt-v4 have here: the surface is within 7.6e-5 radii of
-//! its triangles. The others have twice as many, for their profiles are not straight: a quarter of that for the turn
+//! A cone has 256 edges to the full turn: the surface is within 7.6e-5 radii of its triangles. The others have twice as many, for their profiles are not straight: a quarter of that for the turn
 //! leaves the rest for the profile.
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::grid;
-use super::quadric::TURN;
 use crate::error::{ErrorKind, SceneError};
+use crate::grid;
 use crate::num::f32_of;
 use crate::pbrt::context::Entity;
 use crate::scene::Mesh;
+
+/// Edges to the full turn of a cone.
+const TURN: f64 = 256.0;
 
 /// How far the surface may be from its triangles, in radii: half the angle of an edge, squared and halved.
 const TOLERANCE: f64 = PI * PI / (2.0 * TURN * TURN);
