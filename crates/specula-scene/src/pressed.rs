@@ -63,19 +63,13 @@ impl Press {
         };
         let mut pressed = shape.clone();
         pressed.motion = None;
-        if let Geometry::QuadricPart(part) = shape.geometry {
-            // The mesh that is pressed takes its place.
-            meshes.push(part.mesh());
-            pressed.geometry = Geometry::Mesh(MeshId(meshes.len() - 1));
-        }
-        let is_kept = match pressed.geometry {
-            Geometry::Mesh(MeshId(i)) => {
-                let count = meshes[i].positions.len() as u64;
-                self.vertices = self.vertices.checked_sub(count).ok_or_else(|| {
-                    let most = self.most;
-                    format!("meshes pressed flat have more than {most} vertices (`max_vertices`)")
-                })?;
-                let flat = flat_mesh(&meshes[i], to_world);
+        let flat = match shape.geometry {
+            Geometry::Mesh(MeshId(i)) => self.flat(&meshes[i], to_world)?,
+            Geometry::QuadricPart(part) => self.flat(&part.mesh(), to_world)?,
+            Geometry::Sphere { .. } | Geometry::Disk { .. } => None,
+        };
+        let is_kept = match shape.geometry {
+            Geometry::Mesh(_) | Geometry::QuadricPart(_) => {
                 pressed.to_world = DMat4::IDENTITY;
                 pressed.geometry = Geometry::Mesh(MeshId(meshes.len()));
                 flat.map(|mesh| meshes.push(mesh)).is_some()
@@ -104,12 +98,21 @@ impl Press {
                 pressed.to_world = disk(to_world, [DVec3::X, DVec3::Y], normal, centre);
                 is_invertible(&pressed.to_world) && spans(&pressed.to_world)
             }
-            Geometry::QuadricPart(_) => false,
         };
         Ok(match is_kept {
             true => Pressed::Flat(Box::new(pressed)),
             false => Pressed::Nothing,
         })
+    }
+
+    /// A mesh pressed flat, its vertices taken from those that may be; `None` where it has no area.
+    fn flat(&mut self, mesh: &Mesh, to_world: &DMat4) -> Result<Option<Mesh>, String> {
+        let count = mesh.positions.len() as u64;
+        self.vertices = self.vertices.checked_sub(count).ok_or_else(|| {
+            let most = self.most;
+            format!("meshes pressed flat have more than {most} vertices (`max_vertices`)")
+        })?;
+        Ok(flat_mesh(mesh, to_world))
     }
 }
 
