@@ -64,6 +64,7 @@ pub mod spectrum;
 mod stage;
 pub mod summary;
 mod transform;
+mod triangulate;
 mod tube;
 pub mod validate;
 pub mod write_pbrt;

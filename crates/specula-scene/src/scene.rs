@@ -104,41 +104,6 @@ impl Scene {
             .filter_map(|(i, motion)| Some((i, motion.as_ref()?)))
     }
 
-    /// Replaces parts of quadrics by [their triangles](QuadricPart::mesh), in the shapes that `is_replaced` says.
-    pub fn triangulate_quadric_parts(&mut self, is_replaced: impl Fn(&Shape) -> bool) {
-        let Self {
-            meshes,
-            shapes,
-            objects,
-            ..
-        } = self;
-        let mut made = std::collections::HashMap::new();
-        for shapes in std::iter::once(shapes).chain(objects.iter_mut().map(|o| &mut o.shapes)) {
-            shapes.retain_mut(|shape| {
-                let Geometry::QuadricPart(part) = shape.geometry else {
-                    return true;
-                };
-                if !is_replaced(shape) {
-                    return true;
-                }
-                let mesh = *made.entry(part.key()).or_insert_with(|| {
-                    let mut mesh = part.mesh();
-                    // Parts that are thinner than numbers can tell have no triangles.
-                    let is_sound =
-                        crate::mesh::clean(&mut mesh).is_ok() && !mesh.triangles.is_empty();
-                    is_sound.then(|| {
-                        meshes.push(mesh);
-                        MeshId(meshes.len() - 1)
-                    })
-                });
-                if let Some(mesh) = mesh {
-                    shape.geometry = Geometry::Mesh(mesh);
-                }
-                mesh.is_some()
-            });
-        }
-    }
-
     /// A scene without shapes and lights: what a scene made in code starts from.
     ///
     /// ```

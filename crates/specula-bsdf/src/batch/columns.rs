@@ -4,6 +4,10 @@
 //! short chunk: the elements' numbers are put into columns; places in tables are computed in vectors; what lies there is
 //! looked up one after the other; and the rest is vectors again. Elements of a lobe's rarer forms are computed one by one
 //! at the end.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "an index below the arrays' length is what the compiler makes vectors of"
+)]
 
 use super::kernels::{EvalPdf, Sample, range, triple};
 use super::level::Arithmetic;

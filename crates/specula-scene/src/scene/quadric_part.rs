@@ -5,7 +5,6 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 use super::Mesh;
-use crate::grid::add_triangles;
 use crate::num::f32_of;
 
 /// A part of a sphere, of a cylinder or of a disk, from the azimuth 0 to `phi_max` about the z axis.
@@ -249,7 +248,7 @@ fn grid([nu, nv]: [u32; 2], f: impl Fn(f64, f64) -> ([f64; 3], [f64; 3])) -> Mes
             mesh.uvs.push([f32_of(u), f32_of(v)]);
         }
     }
-    add_triangles(&mut mesh, [nu + 1, nv + 1]);
+    mesh.triangles = crate::grid::triangles(&mesh.positions, [nu + 1, nv + 1]);
     mesh
 }
 

@@ -32,6 +32,6 @@ pub(super) fn read(entity: &Entity) -> Result<Mesh, SceneError> {
             mesh.uvs.push([x, y].map(f32_of));
         }
     }
-    grid::add_triangles(&mut mesh, [nu, nv]);
+    mesh.triangles = grid::triangles(&mesh.positions, [nu, nv]);
     Ok(mesh)
 }

@@ -56,7 +56,7 @@ pub(super) fn read(entity: &Entity) -> Result<Mesh, SceneError> {
             mesh.uvs.push(at.map(f32_of));
         }
     }
-    grid::add_triangles(&mut mesh, [POINTS; 2]);
+    mesh.triangles = grid::triangles(&mesh.positions, [POINTS; 2]);
     Ok(mesh)
 }
 

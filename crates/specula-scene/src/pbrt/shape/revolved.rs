@@ -116,7 +116,7 @@ impl Revolved {
             }
         }
         let rows = u32::try_from(points.len()).unwrap_or(1);
-        grid::add_triangles(&mut mesh, [steps + 1, rows]);
+        mesh.triangles = grid::triangles(&mesh.positions, [steps + 1, rows]);
         mesh
     }
 }
