@@ -283,7 +283,9 @@ where
         let mut pdf = vec![0.0; N];
         let (wo, wi) = (elements.wo.as_slices(), elements.wi.as_slices());
         let short = Each(&lobes[1..]);
-        let error = Level::best().pdf(&short, wo, wi, &mut pdf).unwrap_err();
+        let error = Level::best()
+            .pdf(&short, wo, wi, &mut pdf)
+            .expect_err("one lobe too few");
         assert_eq!((error.name, error.found), ("lobes", N - 1));
     }
 }

@@ -58,7 +58,7 @@ fn white_parts_vanish_in_a_uniform_sky() {
                 let centre = [shift, 0.0, 0.0];
                 let from = [shift + scale, -3.0 * scale, 2.5 * scale];
                 let mut scene = empty(look(from, centre, 35.0), 12);
-                let m = material(&mut scene, kind.clone());
+                let m = material(&mut scene, kind);
                 let place = DMat4::from_translation(centre.into())
                     * DMat4::from_rotation_y(0.4)
                     * DMat4::from_scale(DVec3::splat(scale));
