@@ -269,6 +269,10 @@ macro_rules! batched {
             Lobe::SmoothDielectric($l) => $call,
             Lobe::RoughDielectric($l) => $call,
             Lobe::ThinDielectric($l) => $call,
+            Lobe::RoughConductorBeckmann($l) => $call,
+            Lobe::RoughDielectricBeckmann($l) => $call,
+            Lobe::Principled($l) => $call,
+            Lobe::Gltf($l) => $call,
             _ => $other,
         }
     };

@@ -8,6 +8,8 @@ use clap::{Args, ValueEnum};
 use crate::bsdf::Rgb;
 use crate::render::picture::{Display, ToneMap, automatic_exposure};
 
+use super::values;
+
 /// How PNG files look.
 #[derive(Args, Debug)]
 pub(crate) struct DisplayArguments {
@@ -29,14 +31,14 @@ enum ExposureChoice {
 }
 
 impl FromStr for ExposureChoice {
-    type Err = &'static str;
+    type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        match text.parse::<f32>() {
-            _ if text == "auto" => Ok(Self::Auto),
-            Ok(stops) if stops.is_finite() => Ok(Self::Stops(stops)),
-            _ => Err("expected a number of stops, or `auto`"),
+        if text == "auto" {
+            return Ok(Self::Auto);
         }
+        let stops = values::finite(text).map_err(|e| format!("{e}, or `auto`"))?;
+        Ok(Self::Stops(stops))
     }
 }
 
@@ -108,6 +110,7 @@ mod tests {
         for (text, expected) in [
             ("auto", Some(ExposureChoice::Auto)),
             ("-1.5", Some(ExposureChoice::Stops(-1.5))),
+            ("65", None),
             ("inf", None),
             ("NaN", None),
             ("bright", None),
