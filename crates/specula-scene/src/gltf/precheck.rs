@@ -37,6 +37,7 @@ pub(super) fn precheck(root: &mut Root) -> Result<(), String> {
             bound.get_or_insert_with(|| [0; 3].as_slice().into());
         }
     }
+    channels(root)?;
     for (i, image) in root.images.iter_mut().enumerate() {
         match (&image.buffer_view, &image.uri) {
             (None, None) => return Err(format!("images[{i}]: expected a bufferView or a uri")),
@@ -80,6 +81,30 @@ pub(super) fn precheck(root: &mut Root) -> Result<(), String> {
                 "KHR_lights_punctual.lights[{i}]: expected a spot object"
             ));
         }
+    }
+    Ok(())
+}
+
+/// What animations move, which the crate does not check. Those of pointers, which it does not know, are taken away: a
+/// warning names the extension.
+fn channels(root: &mut Root) -> Result<(), String> {
+    let nodes = root.nodes.len();
+    let points = |name: &String| name == "KHR_animation_pointer";
+    let points = root.extensions_used.iter().any(points);
+    for (i, animation) in root.animations.iter_mut().enumerate() {
+        for (j, channel) in animation.channels.iter().enumerate() {
+            let what = format!("animations[{i}].channels[{j}].target");
+            if channel.target.node.value() >= nodes {
+                return Err(format!("{what}.node: index out of range"));
+            }
+            if channel.target.path == Checked::Invalid && !points {
+                return Err(format!(
+                    "{what}.path: expected translation, rotation, scale or weights"
+                ));
+            }
+        }
+        let is_known = |path: &Checked<_>| matches!(path, Checked::Valid(_));
+        animation.channels.retain(|c| is_known(&c.target.path));
     }
     Ok(())
 }

@@ -326,3 +326,36 @@ fn animations_of_different_nodes_play_together() {
     assert_eq!(x, 1.0);
     assert!(told.is_empty(), "{told:?}");
 }
+
+#[test]
+fn damaged_targets_are_named() {
+    for (from, to, expected) in [
+        (
+            "\"node\": 0, \"path\": \"rotation\"",
+            "\"node\": 7, \"path\": \"rotation\"",
+            "animations[0].channels[1].target.node",
+        ),
+        (
+            "\"path\": \"rotation\"",
+            "\"path\": \"rotatiom\"",
+            "animations[0].channels[1].target.path",
+        ),
+    ] {
+        let text = document(&[(from, to)]);
+        for exposure in [None, Some([0.5, 0.0])] {
+            let error = read(&text, exposure).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+        }
+    }
+    // An extension's own paths are no mistakes.
+    let pointer = document(&[
+        ("\"path\": \"rotation\"", "\"path\": \"pointer\""),
+        (
+            "\"scenes\"",
+            "\"extensionsUsed\": [\"KHR_animation_pointer\"], \"scenes\"",
+        ),
+    ]);
+    let loaded = read(&pointer, Some([2.0, 0.0])).unwrap();
+    assert!(told(&loaded)[0].contains("KHR_animation_pointer"));
+    assert_eq!(places(&loaded.scene, 0.0)[0].w_axis.x, 4.0);
+}
