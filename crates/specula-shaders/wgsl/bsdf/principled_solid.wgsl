@@ -63,7 +63,7 @@ struct PrincipledSolid {
 
 /// Probabilities of the sampler's parts.
 ///
-/// Twin: specula-bsdf/src/bsdf/principled/solid.rs, Shares.
+/// Twin: specula-bsdf/src/bsdf/principled/opaque.rs, Shares.
 struct PrincipledSolidShares {
     /// The cosine.
     diffuse: f32,
@@ -104,7 +104,7 @@ fn principled_solid_new(p: PrincipledParameters) -> PrincipledSolid {
 
 /// The Fresnel term of the main reflection.
 ///
-/// Twin: specula-bsdf/src/bsdf/principled/solid.rs, Solid::fresnel.
+/// Twin: specula-bsdf/src/bsdf/principled/opaque.rs, Opaque::fresnel.
 fn principled_solid_fresnel(lobe: PrincipledSolid, cosine: f32, bent: DielectricRefraction) -> vec3f {
     let s = principled_terms_schlick_weight_across(cosine, bent, lobe.eta);
     return vec3f(lobe.dielectric_weight * bent.reflectance)
@@ -114,7 +114,7 @@ fn principled_solid_fresnel(lobe: PrincipledSolid, cosine: f32, bent: Dielectric
 
 /// The clear coat's Fresnel term times its weight.
 ///
-/// Twin: specula-bsdf/src/bsdf/principled/solid.rs, Solid::coat_fresnel.
+/// Twin: specula-bsdf/src/bsdf/principled/opaque.rs, Opaque::coat_fresnel.
 fn principled_solid_coat_fresnel(lobe: PrincipledSolid, cosine: f32, bent: DielectricRefraction) -> f32 {
     let s = principled_terms_schlick_weight_across(cosine, bent, lobe.eta);
     return lobe.clearcoat * (0.04 + 0.96 * s);
