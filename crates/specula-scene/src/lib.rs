@@ -86,6 +86,7 @@ pub use validate::Invalid;
 
 use problems::Problems;
 use read_file::Files;
+use search::Search;
 
 /// How a scene is read.
 ///
@@ -268,8 +269,19 @@ fn read_as(
     let mut loaded = match format {
         Format::Mitsuba => mitsuba::read(path, options, files, problems),
         Format::Gltf => gltf::read(path, options, files, problems),
-        Format::Obj => single::read(path, files, problems, (format, obj::read)),
-        Format::Ply => single::read(path, files, problems, (format, ply::read)),
+        Format::Obj => {
+            let search = Search::new(path, &options.folders);
+            let read = |path: &Path, files: &Files, collects: bool| {
+                obj::read_looks(path, files, collects, &search)
+            };
+            single::read(path, files, problems, (format, read))
+        }
+        Format::Ply => {
+            let read = |path: &Path, files: &Files, collects: bool| {
+                ply::read(path, files, collects).map(single::Staged::of)
+            };
+            single::read(path, files, problems, (format, read))
+        }
         Format::Pbrt => pbrt::read(path, options, files, problems),
     };
     if let (Ok(loaded), Some(_)) = (&mut loaded, options.exposure)

@@ -9,11 +9,12 @@ use crate::bounds::{self, BoundingBox};
 use crate::error::{ErrorKind, Place, SceneError, SourceText, Warning};
 use crate::faults::Fault;
 use crate::format::Format;
+use crate::image::Image;
 use crate::problems::Problems;
 use crate::read_file::Files;
 use crate::scene::{
-    ColourParam, FloatParam, Geometry, Material, MaterialId, MaterialKind, Mesh, MeshId, Scene,
-    Settings, Shape, Texture, TextureId,
+    ColourParam, Emission, FloatParam, Geometry, Material, MaterialId, MaterialKind, Mesh, MeshId,
+    Scene, Settings, Shape, Texture, TextureId,
 };
 use crate::{Limits, Loaded, mesh, stage};
 
@@ -23,8 +24,88 @@ const RESOLUTION: [u32; 2] = [960, 960];
 /// Longest file whose text is stored to show excerpts in messages.
 const LONGEST_TEXT: u64 = 16 << 20;
 
-/// Reads a mesh with `parse`, and gives it grey paint or that of its colours, a camera that frames it, the built-in studio's
-/// light and a floor, which a warning says.
+/// Meshes, and how they look.
+pub(crate) struct Staged {
+    /// Each with the number of its look.
+    pub(crate) meshes: Vec<(Mesh, usize)>,
+    pub(crate) looks: Vec<Look>,
+    pub(crate) textures: Vec<Texture>,
+    pub(crate) images: Vec<Image>,
+    /// Where the looks come from, for a message.
+    pub(crate) paint: &'static str,
+    /// What is left out.
+    pub(crate) messages: Vec<String>,
+}
+
+/// How a mesh looks.
+pub(crate) struct Look {
+    pub(crate) material: Material,
+    pub(crate) emission: Option<Emission>,
+    pub(crate) alpha: FloatParam,
+}
+
+impl Look {
+    /// Matte paint.
+    pub(crate) fn paint(reflectance: ColourParam) -> Self {
+        Self {
+            material: Material::new(MaterialKind::Diffuse {
+                reflectance,
+                roughness: FloatParam::Value(0.0),
+            }),
+            emission: None,
+            alpha: FloatParam::Value(1.0),
+        }
+    }
+
+    /// Grey paint.
+    pub(crate) fn grey() -> Self {
+        Self::paint(ColourParam::Value(Rgb::splat(0.5)))
+    }
+}
+
+impl Staged {
+    /// A mesh in the colours of its vertices, or in grey paint.
+    pub(crate) fn of(mesh: Mesh) -> Self {
+        let is_coloured = !mesh.colours.is_empty();
+        let look = if is_coloured {
+            Look::paint(ColourParam::Texture(TextureId(0)))
+        } else {
+            Look::grey()
+        };
+        Self {
+            meshes: vec![(mesh, 0)],
+            looks: vec![look],
+            textures: Vec::from_iter(is_coloured.then_some(Texture::VertexColour)),
+            images: Vec::new(),
+            paint: if is_coloured {
+                "paint of its vertices' colours"
+            } else {
+                "grey paint"
+            },
+            messages: Vec::new(),
+        }
+    }
+
+    /// Makes the meshes valid; what is said of it.
+    fn clean(&mut self, collects: bool) -> Result<(), Vec<Fault>> {
+        for (mesh, _) in &mut self.meshes {
+            let cleaning = mesh::clean_or_name(mesh, collects)?;
+            self.messages.extend(cleaning.messages());
+        }
+        // Of several parts those without a triangle are left out.
+        if self
+            .meshes
+            .iter()
+            .any(|(mesh, _)| !mesh.triangles.is_empty())
+        {
+            self.meshes.retain(|(mesh, _)| !mesh.triangles.is_empty());
+        }
+        Ok(())
+    }
+}
+
+/// Reads a mesh with `parse`, and gives it a camera that frames it, the built-in studio's light and a floor, which a
+/// warning says.
 ///
 /// # Errors
 ///
@@ -35,36 +116,37 @@ pub(crate) fn read(
     problems: &Problems,
     (format, parse): (
         Format,
-        impl FnOnce(&Path, &Files, bool) -> Result<Mesh, Vec<Fault>>,
+        impl FnOnce(&Path, &Files, bool) -> Result<Staged, Vec<Fault>>,
     ),
 ) -> Result<Loaded, SceneError> {
     let place = Place::start(&SourceText::unread(path));
     let collects = problems.is_check();
-    let read = parse(path, files, collects).and_then(|mut mesh| {
-        let cleaning = mesh::clean_or_name(&mut mesh, collects)?;
-        Ok((mesh, cleaning))
+    let read = parse(path, files, collects).and_then(|mut staged| {
+        staged.clean(collects)?;
+        Ok(staged)
     });
-    let (mesh, cleaning) = match read {
+    let staged = match read {
         Ok(read) => read,
         Err(faults) => return Err(refuse(path, files.limits(), problems, &faults)?),
     };
     let camera = stage::camera(BoundingBox::EMPTY, RESOLUTION);
-    let mut scene = Scene::empty(camera, stage::film(RESOLUTION), Settings::default());
-    let is_coloured = !mesh.colours.is_empty();
-    let reflectance = if is_coloured {
-        scene.textures.push(Texture::VertexColour);
-        ColourParam::Texture(TextureId(0))
-    } else {
-        ColourParam::Value(Rgb::splat(0.5))
+    let mut scene = Scene {
+        textures: staged.textures,
+        images: staged.images,
+        ..Scene::empty(camera, stage::film(RESOLUTION), Settings::default())
     };
-    scene.materials.push(Material::new(MaterialKind::Diffuse {
-        reflectance,
-        roughness: FloatParam::Value(0.0),
-    }));
-    scene.meshes.push(mesh);
-    let geometry = Geometry::Mesh(MeshId(0));
-    let shape = Shape::new(geometry, DMat4::IDENTITY, MaterialId(0));
-    scene.shapes.push(shape);
+    for (mesh, look) in staged.meshes {
+        let of = &staged.looks[look];
+        scene.meshes.push(mesh);
+        let geometry = Geometry::Mesh(MeshId(scene.meshes.len() - 1));
+        scene.shapes.push(Shape {
+            emission: of.emission,
+            alpha: of.alpha,
+            ..Shape::new(geometry, DMat4::IDENTITY, MaterialId(look))
+        });
+    }
+    let materials = staged.looks.into_iter().map(|look| look.material);
+    scene.materials.extend(materials);
     let bounds = bounds::of_scene(&scene);
     scene.camera = stage::camera(bounds, RESOLUTION);
     stage::light(&mut scene, bounds);
@@ -75,17 +157,13 @@ pub(crate) fn read(
             fault.to_string(),
         ))
     })?;
-    let paint = if is_coloured {
-        "paint of its vertices' colours"
-    } else {
-        "grey paint"
-    };
     let message = format!(
-        "the file is a mesh alone: {paint}, the built-in studio's light, a floor and a camera that frames it are used \
-         (y is up)"
+        "the file is a mesh alone: {}, the built-in studio's light, a floor and a camera that frames it are used \
+         (y is up)",
+        staged.paint
     );
     let mut warnings = vec![Warning::new(&place, message)];
-    let told = cleaning.messages().into_iter();
+    let told = staged.messages.into_iter();
     warnings.extend(told.map(|message| Warning::new(&place, message)));
     Ok(Loaded {
         format,

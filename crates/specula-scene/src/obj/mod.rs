@@ -1,12 +1,16 @@
 //! Meshes in Wavefront's OBJ files, plain or gzipped.
 //!
-//! All of a file's faces become one mesh: groups, smoothing and materials are skipped. Polygons
+//! All of a file's faces become one mesh, or one for each material: groups and smoothing are skipped. Polygons
 //! fan out from their first vertex. Indices count from 1, or back from the last where negative.
 //! Vertices may carry a colour (`v x y z r g b`). Texture coordinates are not changed: v runs upwards.
 //!
 //! In a check a line with a mistake does not end the reading. One that defines a vertex, a coordinate
 //! or a normal defines zeros then, so that the indices of later faces stay what they are.
 
+mod library;
+mod looks;
+
+use std::collections::HashMap;
 use std::path::Path;
 
 use crate::Limits;
@@ -14,6 +18,130 @@ use crate::faults::{Fault, Faults};
 use crate::num::{parsed_f32, shortened};
 use crate::read_file::Files;
 use crate::scene::Mesh;
+use crate::search::Search;
+use crate::single::{Look, Staged};
+
+/// A file's mesh, and where its faces change their material.
+struct ObjFile {
+    mesh: Mesh,
+    /// From this triangle on, the material of this name.
+    uses: Vec<(usize, String)>,
+    /// Names of libraries.
+    libraries: Vec<String>,
+}
+
+/// Reads a mesh with its materials.
+///
+/// * `search`: where libraries and pictures are looked for.
+///
+/// # Errors
+///
+/// As of [`read`]; libraries and pictures that cannot be read are left out, which a message says.
+pub(crate) fn read_looks(
+    path: &Path,
+    files: &Files,
+    collects: bool,
+    search: &Search,
+) -> Result<Staged, Vec<Fault>> {
+    let bytes = files.unpacked(path).map_err(|m| vec![m.into()])?;
+    let ObjFile {
+        mesh,
+        uses,
+        libraries,
+    } = parse(&bytes, files.limits(), collects)?;
+    if uses.is_empty() || libraries.is_empty() {
+        return Ok(Staged::of(mesh));
+    }
+    let mut looks = looks::Looks::new(files, search);
+    let mut known = HashMap::new();
+    for name in libraries {
+        let path = search.find(&name);
+        match files.unpacked(&path) {
+            Ok(bytes) => {
+                let (materials, faults) = library::parse(&bytes);
+                let told = faults.into_iter();
+                let told = told.map(|(line, message)| format!("{name}, line {line}: {message}"));
+                looks.messages.extend(told);
+                known.extend(materials.into_iter().map(|m| (m.name.clone(), m)));
+            }
+            Err(message) => looks.messages.push(format!(
+                "the library of materials {name} {message}: grey paint stands in for them"
+            )),
+        }
+    }
+    let mut numbers: HashMap<String, usize> = HashMap::new();
+    let mut made: Vec<Look> = Vec::new();
+    let mut parts: Vec<Vec<[u32; 3]>> = Vec::new();
+    let ends = uses.iter().skip(1).map(|(from, _)| *from);
+    let ends = ends.chain([mesh.triangles.len()]);
+    let unnamed = (0, String::new());
+    let first = uses.first().map_or(0, |(from, _)| *from);
+    let runs = std::iter::once((&unnamed, first)).chain(uses.iter().zip(ends));
+    for ((from, name), to) in runs.filter(|((from, _), to)| from < to) {
+        let number = *numbers.entry(name.clone()).or_insert_with(|| {
+            made.push(known.get(name).map_or_else(Look::grey, |m| looks.look(m)));
+            parts.push(Vec::new());
+            made.len() - 1
+        });
+        parts[number].extend(&mesh.triangles[*from..to]);
+    }
+    if made.is_empty() {
+        return Ok(Staged::of(mesh));
+    }
+    let parts = parts.into_iter().enumerate();
+    let mut places = Places::new(mesh.positions.len());
+    Ok(Staged {
+        meshes: parts
+            .map(|(k, part)| (places.part(&mesh, part), k))
+            .collect(),
+        looks: made,
+        textures: looks.textures,
+        images: looks.images,
+        paint: "the materials of its libraries",
+        messages: looks.messages,
+    })
+}
+
+/// By vertex of a mesh, its number within a part.
+struct Places {
+    /// The part that it was numbered for, and the number.
+    numbers: Vec<(u32, u32)>,
+    part: u32,
+}
+
+impl Places {
+    fn new(count: usize) -> Self {
+        Self {
+            numbers: vec![(0, 0); count],
+            part: 0,
+        }
+    }
+
+    /// A mesh of some triangles of another.
+    fn part(&mut self, of: &Mesh, mut triangles: Vec<[u32; 3]>) -> Mesh {
+        self.part += 1;
+        let mut kept: Vec<usize> = Vec::new();
+        for i in triangles.iter_mut().flatten() {
+            let (part, number) = &mut self.numbers[*i as usize];
+            if *part != self.part {
+                (*part, *number) = (self.part, u32::try_from(kept.len()).unwrap_or(NONE));
+                kept.push(*i as usize);
+            }
+            *i = *number;
+        }
+        fn pick<T: Copy>(kept: &[usize], all: &[T]) -> Vec<T> {
+            kept.iter().filter_map(|&i| all.get(i).copied()).collect()
+        }
+        Mesh {
+            positions: pick(&kept, &of.positions),
+            normals: pick(&kept, &of.normals),
+            uvs: pick(&kept, &of.uvs),
+            colours: pick(&kept, &of.colours),
+            triangles,
+            ..Mesh::default()
+        }
+    }
+}
 
 /// Reads a mesh.
 ///
@@ -24,7 +152,7 @@ use crate::scene::Mesh;
 /// What is wrong with the file.
 pub(crate) fn read(path: &Path, files: &Files, collects: bool) -> Result<Mesh, Vec<Fault>> {
     let bytes = files.unpacked(path).map_err(|m| vec![m.into()])?;
-    parse(&bytes, files.limits(), collects)
+    Ok(parse(&bytes, files.limits(), collects)?.mesh)
 }
 
 /// Reads a mesh from the bytes of an OBJ file.
@@ -32,13 +160,13 @@ pub(crate) fn read(path: &Path, files: &Files, collects: bool) -> Result<Mesh, V
 /// # Errors
 ///
 /// What was expected, with its line.
-fn parse(bytes: &[u8], limits: &Limits, collects: bool) -> Result<Mesh, Vec<Fault>> {
+fn parse(bytes: &[u8], limits: &Limits, collects: bool) -> Result<ObjFile, Vec<Fault>> {
     let mut faults = Faults::new(collects);
     let read = parse_into(bytes, limits, &mut faults);
     faults.end(read)
 }
 
-fn parse_into(bytes: &[u8], limits: &Limits, faults: &mut Faults) -> Result<Mesh, Fault> {
+fn parse_into(bytes: &[u8], limits: &Limits, faults: &mut Faults) -> Result<ObjFile, Fault> {
     let mut reader = Reader::new(limits);
     let mut joined = Vec::new();
     for (number, line) in bytes.split(|b| *b == b'\n').enumerate() {
@@ -65,11 +193,18 @@ fn parse_into(bytes: &[u8], limits: &Limits, faults: &mut Faults) -> Result<Mesh
         }
         joined.clear();
     }
-    match reader.finish() {
+    let uses = std::mem::take(&mut reader.uses);
+    let libraries = std::mem::take(&mut reader.libraries);
+    let mesh = match reader.finish() {
         // A file with mistakes need not yield a mesh.
-        Err(_) if !faults.is_empty() => Ok(Mesh::default()),
-        mesh => mesh.map_err(Fault::from),
-    }
+        Err(_) if !faults.is_empty() => Mesh::default(),
+        mesh => mesh?,
+    };
+    Ok(ObjFile {
+        mesh,
+        uses,
+        libraries,
+    })
 }
 
 /// What is wrong with a line.
@@ -102,6 +237,9 @@ struct Reader<'a> {
     keys: Vec<[u32; 3]>,
     has_uvs: bool,
     has_normals: bool,
+    /// As of [`ObjFile`].
+    uses: Vec<(usize, String)>,
+    libraries: Vec<String>,
 }
 
 impl<'a> Reader<'a> {
@@ -118,6 +256,8 @@ impl<'a> Reader<'a> {
             keys: Vec::new(),
             has_uvs: false,
             has_normals: false,
+            uses: Vec::new(),
+            libraries: Vec::new(),
         }
     }
 
@@ -147,6 +287,17 @@ impl<'a> Reader<'a> {
                 Ok(())
             }
             b"f" => self.face(rest),
+            b"usemtl" => {
+                self.uses.push((self.mesh.triangles.len(), name(rest)));
+                Ok(())
+            }
+            b"mtllib" => {
+                let name = name(rest);
+                if !self.libraries.contains(&name) {
+                    self.libraries.push(name);
+                }
+                Ok(())
+            }
             _ => Ok(()),
         }
     }
@@ -279,6 +430,11 @@ impl<'a> Reader<'a> {
     }
 }
 
+/// A name, which may have spaces in it.
+fn name(rest: &[u8]) -> String {
+    String::from_utf8_lossy(rest.trim_ascii()).into_owned()
+}
+
 /// Reads up to `out.len()` numbers; returns how many there were.
 fn numbers(text: &[u8], out: &mut [f32]) -> Result<usize, String> {
     let words = text
@@ -319,7 +475,12 @@ mod tests {
 
     fn mesh(text: &str) -> Result<Mesh, String> {
         let read = parse(text.as_bytes(), &Limits::default(), false);
-        read.map_err(|faults| faults[0].to_string())
+        read.map(|file| file.mesh)
+            .map_err(|faults| faults[0].to_string())
+    }
+
+    fn faults(read: Result<ObjFile, Vec<Fault>>) -> Vec<Fault> {
+        read.map_or_else(|faults| faults, |_| Vec::new())
     }
 
     #[test]
@@ -388,7 +549,7 @@ mod tests {
         };
         for collects in [false, true] {
             let text = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv x\n";
-            let errors = parse(text, &limits, collects).unwrap_err();
+            let errors = faults(parse(text, &limits, collects));
             assert_eq!(errors.len(), 1, "{errors:?}");
             assert!(errors[0].message.contains("more than 2 vertices"));
         }
@@ -399,7 +560,7 @@ mod tests {
         // The third vertex is damaged: faces that use it, and the fourth, are no mistakes.
         let text = "v 0 0 0\nv 1 0 0\nv 1 x 0\nv 0 1 0\nvt a\nvn 0 0\nf 1 2 3\nf 1//1 2/1 -1\n\
                     f 1 2\nf 1 2 5\nf 2 4 zwei\nfoo bar\n";
-        let read = |collects| parse(text.as_bytes(), &Limits::default(), collects).unwrap_err();
+        let read = |collects| faults(parse(text.as_bytes(), &Limits::default(), collects));
         let lines: Vec<_> = read(true).iter().map(|f| f.line).collect();
         assert_eq!(lines, [3, 5, 6, 9, 10, 11].map(Some), "{:?}", read(true));
         assert_eq!(read(false), read(true)[..1]);

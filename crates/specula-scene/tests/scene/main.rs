@@ -27,6 +27,7 @@ mod media;
 mod missing;
 mod motion;
 mod mutations;
+mod obj_looks;
 mod pressed;
 mod range;
 #[path = "../common/report.rs"]
