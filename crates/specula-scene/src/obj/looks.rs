@@ -16,7 +16,7 @@ use specula_bsdf::Rgb;
 
 use super::library::{LibraryMaterial, Map};
 use crate::image::{self, Content, Encoding, Image};
-use crate::num::f32_of;
+use crate::num::{f32_of, shortened};
 use crate::read_file::Files;
 use crate::scene::{
     Bump, Channel, ColourParam, Emission, FloatParam, GltfMaterial, ImageId, Interpolation,
@@ -185,7 +185,7 @@ impl<'a> Looks<'a> {
         if from.maps.normal.is_none() && !holds_normals(&self.images[id.0]) {
             self.messages.push(format!(
                 "material \"{}\": map_Bump has heights of unknown unit: it is left out",
-                from.name
+                shortened(from.name.as_bytes())
             ));
             return None;
         }
@@ -259,7 +259,7 @@ impl<'a> Looks<'a> {
                 Some(ImageId(self.images.len() - 1))
             }
             Err(message) => {
-                let name = &from.name;
+                let name = shortened(from.name.as_bytes());
                 self.messages
                     .push(format!("material \"{name}\": {message}: it is left out"));
                 None

@@ -56,6 +56,7 @@ pub(crate) fn read_looks(
     let mut known = HashMap::new();
     for name in libraries {
         let path = search.find(&name);
+        let name = shortened(name.as_bytes());
         match files.unpacked(&path) {
             Ok(bytes) => {
                 let (materials, faults) = library::parse(&bytes);
