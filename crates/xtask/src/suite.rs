@@ -79,7 +79,7 @@ pub(crate) fn run(root: &Path, suite: &Suite) -> Result<()> {
     report.step("features", || feature_sets::run(root));
     let mut suites = Vec::new();
     report.step("tests", || tests(root, skips.path(), &mut suites));
-    lanes::run(skips.path(), &mut report)?;
+    lanes::run(root, skips.path(), &mut report)?;
     report.step("tidy", || tidy::run(root));
     let skipped = skips.read()?;
     report.step("skips", || skipped.verdict(suite.strict));

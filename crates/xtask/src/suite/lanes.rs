@@ -1,8 +1,9 @@
 //! Chores that run beside each other: tests of Python wait for a farm, those of the studio for a browser.
 
+use std::fs::{self, File};
 use std::io::Write as _;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::time::Instant;
 
@@ -22,30 +23,33 @@ const LANES: [&[&[&str]]; 2] = [
 /// Runs every chore, even after one has failed, and prints what each printed when it has ended.
 ///
 /// * `skips`: the file to which tests append a line for each skip.
-pub(super) fn run(skips: &Path, report: &mut Report) -> Result<()> {
+pub(super) fn run(root: &Path, skips: &Path, report: &mut Report) -> Result<()> {
+    let folder = root.join("target");
     let program = std::env::current_exe()?;
     let command = |chore: &[&str]| {
         let mut command = Command::new(&program);
         command.args(chore).env(specula_testing::FILE, skips);
         command
     };
-    beside_each_other(&LANES, &command, report);
+    beside_each_other(&LANES, &folder, &command, report);
     Ok(())
 }
 
 fn beside_each_other(
     lanes: &[&[&[&str]]],
+    folder: &Path,
     command: &(dyn Fn(&[&str]) -> Command + Sync),
     report: &mut Report,
 ) {
     let report = Mutex::new(report);
     std::thread::scope(|scope| {
-        for lane in lanes {
+        for (i, lane) in lanes.iter().enumerate() {
             let report = &report;
             scope.spawn(move || {
                 for chore in *lane {
                     let start = Instant::now();
-                    let outcome = programs::captured(&mut command(chore));
+                    let log = folder.join(format!("chore-{i}.log"));
+                    let outcome = logged(&mut command(chore), &log);
                     let seconds = start.elapsed().as_secs_f64();
                     let mut report = programs::lock(report);
                     report.line(chore[0], told(chore, outcome), seconds);
@@ -53,6 +57,15 @@ fn beside_each_other(
             });
         }
     });
+}
+
+/// What a chore printed, by way of a file: programs that it leaves behind would keep a pipe open.
+fn logged(command: &mut Command, log: &Path) -> programs::Outcome {
+    let file = File::create(log)?;
+    command.stdin(Stdio::null());
+    command.stdout(file.try_clone()?).stderr(file);
+    let status = command.status()?;
+    Ok((fs::read(log)?, status))
 }
 
 /// Prints a chore's output; whether it passed.
@@ -88,7 +101,11 @@ mod tests {
             command
         };
         let mut report = Report::default();
-        beside_each_other(&lanes, &command, &mut report);
+        let folder = std::env::temp_dir().join(format!("specula-lanes-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        beside_each_other(&lanes, &folder, &command, &mut report);
+        assert_eq!(fs::read(folder.join("chore-1.log")).unwrap(), b"there\n");
+        fs::remove_dir_all(folder).unwrap();
         report.lines.sort();
         let verdicts: Vec<_> = report.lines.iter().map(|l| l.contains("FAILED")).collect();
         assert_eq!(verdicts, [false, false, true], "{:?}", report.lines);

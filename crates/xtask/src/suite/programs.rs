@@ -68,7 +68,7 @@ impl Program {
 }
 
 /// What a program printed, to both of its outputs in order, and how it ended.
-pub(super) fn captured(command: &mut Command) -> Result<(Vec<u8>, ExitStatus)> {
+fn captured(command: &mut Command) -> Result<(Vec<u8>, ExitStatus)> {
     let (mut reader, writer): (PipeReader, PipeWriter) = std::io::pipe()?;
     command.stdin(Stdio::null());
     command.stdout(writer.try_clone()?).stderr(writer);
