@@ -122,12 +122,11 @@ impl<'a> Looks<'a> {
             };
         }
         let alpha = (2.0 / (f64::from(from.exponent) + 2.0)).sqrt();
-        let roughness = from.roughness.unwrap_or(f32_of(alpha.sqrt()));
         let is_black = from.maps.diffuse.is_none() && from.diffuse == [0.0; 3];
         let is_metal = !is_physical && is_black && most > 0.1;
         let specular = Rgb { r, g, b };
-        let (base_colour, metallic, specular_colour) = if is_metal {
-            (ColourParam::Value(specular), 1.0, Rgb::WHITE)
+        let (base_colour, specular_colour) = if is_metal {
+            (ColourParam::Value(specular), Rgb::WHITE)
         } else {
             // Physically based ones are as glTF's, unless they say more.
             let scale = if is_physical && most == 0.0 {
@@ -135,14 +134,14 @@ impl<'a> Looks<'a> {
             } else {
                 specular * 2.0
             };
-            (base, from.metallic.unwrap_or(0.0), scale)
+            (base, scale)
         };
-        let unless = |value: Option<f32>, map: &Option<Map>, default: f32| match map {
-            Some(_) => value.unwrap_or(1.0),
-            None => value.unwrap_or(default),
+        // A picture alone is the whole value.
+        let factor = |value: Option<f32>, map: &Option<Map>, default: f32| {
+            value.unwrap_or(if map.is_some() { 1.0 } else { default })
         };
-        let roughness = unless(from.roughness, &from.maps.roughness, roughness);
-        let metallic = unless(Some(metallic), &from.maps.metallic, metallic);
+        let roughness = factor(from.roughness, &from.maps.roughness, f32_of(alpha.sqrt()));
+        let metallic = factor(from.metallic, &from.maps.metallic, f32::from(is_metal));
         MaterialKind::Gltf(GltfMaterial {
             base_colour,
             metallic: self.float(from.maps.metallic.as_ref(), metallic, from),

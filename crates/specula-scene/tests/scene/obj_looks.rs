@@ -153,6 +153,23 @@ fn glass_opacity_emission_and_pictures_are_read() {
 }
 
 #[test]
+fn pictures_of_roughness_and_metallic_need_no_factor() {
+    let loaded = read("newmtl paint\nmap_Pr a b.pfm\nmap_Pm a b.pfm\n");
+    let parts = parts(&loaded.scene);
+    let physical = gltf(parts[1].1);
+    for value in [physical.roughness, physical.metallic] {
+        let FloatParam::Texture(texture) = value else {
+            panic!("{value:?}")
+        };
+        // Not a product with 0.
+        assert!(matches!(
+            loaded.scene.textures[texture.0],
+            Texture::Image { .. }
+        ));
+    }
+}
+
+#[test]
 fn what_is_left_out_is_told() {
     let loaded = read(
         "newmtl paint\nKd 1 x 1\nmap_Kd none.png\nmap_Bump a b.pfm\nnewmtl gold\nPr 0.4\nPm 0.5\nKd 0.3\n",

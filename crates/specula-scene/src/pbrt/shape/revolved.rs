@@ -1,7 +1,7 @@
 //! pbrt-v3's `cone`, `paraboloid` and `hyperboloid`: a profile turned about z, as triangles.
 //!
-//! A cone has 256 edges to the full turn: the surface is within 7.6e-5 radii of its triangles. The others have twice as many, for their profiles are not straight: a quarter of that for the turn
-//! leaves the rest for the profile.
+//! A cone has 256 edges to the full turn: the surface is within 7.6e-5 radii of its triangles. The others have twice as
+//! many, for their profiles are not straight: a quarter of that for the turn leaves the rest for the profile.
 
 use std::f64::consts::PI;
 
