@@ -1,4 +1,6 @@
-"""Renders one scene with Cycles on demand: `python3 cycles_peer.py scene.xml THREADS`.
+"""Renders one scene with Cycles on demand: `python3 cycles_peer.py scene.xml THREADS [DEVICE]`.
+
+DEVICE is CPU or what Cycles calls an interface of GPUs (CUDA, OPTIX, HIP, ONEAPI, METAL), of which all are used.
 
 Builds what the Mitsuba file says: spheres (256 x 128 smooth quadrilaterals), rectangles, cubes, PLY
 meshes; `diffuse`, `roughconductor`, `dielectric`, `roughdielectric`; `area`, `constant`, `envmap`.
@@ -20,6 +22,7 @@ from mathutils import Matrix, Vector
 
 TO_Z_UP = Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
 path, threads = os.path.abspath(sys.argv[1]), int(sys.argv[2])
+device = sys.argv[3] if len(sys.argv) > 3 else "CPU"
 
 
 def value(element, name, default=None):
@@ -204,6 +207,22 @@ def camera(scene, sensor):
     render.resolution_percentage = 100
 
 
+def use_gpus(cycles):
+    """Renders on all GPUs of the interface, and on nothing else."""
+    preferences = bpy.context.preferences.addons["cycles"].preferences
+    known = [name for name, *_ in preferences.get_device_types(bpy.context)]
+    if device not in known:
+        raise SystemExit(f"this Cycles has no {device}, but {', '.join(known)}")
+    preferences.compute_device_type = device
+    preferences.refresh_devices()
+    gpus = [found for found in preferences.devices if found.type == device]
+    if not gpus:
+        raise SystemExit(f"Cycles finds no GPU for {device}")
+    for found in preferences.devices:
+        found.use = found.type == device
+    cycles.device = "GPU"
+
+
 def settings(scene, bounces):
     render, cycles = scene.render, scene.cycles
     render.engine = "CYCLES"
@@ -214,6 +233,8 @@ def settings(scene, bounces):
     render.image_settings.color_depth = "32"
     scene.view_settings.view_transform = "Raw"
     cycles.device = "CPU"
+    if device != "CPU":
+        use_gpus(cycles)
     cycles.use_denoising = False
     cycles.pixel_filter_type = "BOX"
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0

@@ -1,7 +1,6 @@
 //! Lobes behind the interface, in two precisions.
 
 use specula_bsdf::bsdf::Bsdf;
-use specula_bsdf::math::Real;
 use specula_bsdf::measured::{Measured, MeasuredError, MeasuredTables};
 use specula_lobes::{AnyLobe, NamedLobe};
 
@@ -32,7 +31,7 @@ impl LobeHandle {
 }
 
 /// A precision that lobes are kept in.
-pub(crate) trait Precision: Real {
+pub(crate) trait Precision: specula_lobes::Precision {
     /// The lobe in it.
     fn of_pair(lobe: &LobeHandle) -> &AnyLobe<Self>;
 }

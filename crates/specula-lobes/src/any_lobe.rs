@@ -20,15 +20,11 @@ pub enum AnyLobe<T> {
     Measured(Box<Measured<T>>),
 }
 
-impl<T: Real> AnyLobe<T> {
+impl<T: Precision> AnyLobe<T> {
     /// It, by what all have in common.
     #[must_use]
     pub fn as_bsdf(&self) -> &dyn Bsdf<T> {
-        match self {
-            Self::Lobe(lobe) => lobe,
-            Self::Hair(hair) => hair,
-            Self::Measured(measured) => &**measured,
-        }
+        T::as_bsdf(self)
     }
 
     /// Whether samples read the second and third random number alone: there is nothing to choose from.
@@ -101,7 +97,126 @@ macro_rules! batches {
     };
 }
 
-impl<T: Real> AnyBatches<'_, T> {
+/// What is compiled for a precision.
+mod compiled {
+    use super::{AnyBatches, AnyLobe, Bsdf, Colours, Directions, Real};
+    use super::{LengthMismatch, SampleOutcome, Samples};
+
+    /// The functions of [`AnyBatches`] and [`AnyLobe`]. Those of an implementation are not generic, so that they are
+    /// compiled in this crate, once for all that call them.
+    pub trait Compiled: Real {
+        fn as_bsdf(lobe: &AnyLobe<Self>) -> &dyn Bsdf<Self>;
+
+        fn eval(
+            of: AnyBatches<'_, Self>,
+            first: usize,
+            wo: Directions<&[Self]>,
+            wi: Directions<&[Self]>,
+            f_cos: Colours<&mut [Self]>,
+        ) -> Result<(), LengthMismatch>;
+
+        fn pdf(
+            of: AnyBatches<'_, Self>,
+            wo: Directions<&[Self]>,
+            wi: Directions<&[Self]>,
+            pdf: &mut [Self],
+        ) -> Result<(), LengthMismatch>;
+
+        fn eval_pdf(
+            of: AnyBatches<'_, Self>,
+            first: usize,
+            wo: Directions<&[Self]>,
+            wi: Directions<&[Self]>,
+            f_cos: Colours<&mut [Self]>,
+            pdf: &mut [Self],
+        ) -> Result<(), LengthMismatch>;
+
+        fn sample(
+            of: AnyBatches<'_, Self>,
+            first: usize,
+            wo: Directions<&[Self]>,
+            u: [&[Self]; 3],
+            samples: Samples<&mut [Self], &mut [SampleOutcome]>,
+        ) -> Result<(), LengthMismatch>;
+    }
+}
+
+use compiled::Compiled;
+
+/// A precision that lobes are compiled for: `f32` or `f64`.
+pub trait Precision: Compiled {}
+
+macro_rules! compile {
+    ($($t:ty),*) => {$(
+        impl Precision for $t {}
+
+        impl Compiled for $t {
+            fn as_bsdf(lobe: &AnyLobe<$t>) -> &dyn Bsdf<$t> {
+                match lobe {
+                    AnyLobe::Lobe(lobe) => lobe,
+                    AnyLobe::Hair(hair) => hair,
+                    AnyLobe::Measured(measured) => &**measured,
+                }
+            }
+
+            fn eval(
+                of: AnyBatches<'_, $t>,
+                first: usize,
+                wo: Directions<&[$t]>,
+                wi: Directions<&[$t]>,
+                f_cos: Colours<&mut [$t]>,
+            ) -> Result<(), LengthMismatch> {
+                batches!(of,
+                    lobe => lobe.eval(first, wo, wi, f_cos),
+                    any => Level::best().eval(any, wo, wi, of.transport, f_cos)
+                )
+            }
+
+            fn pdf(
+                of: AnyBatches<'_, $t>,
+                wo: Directions<&[$t]>,
+                wi: Directions<&[$t]>,
+                pdf: &mut [$t],
+            ) -> Result<(), LengthMismatch> {
+                batches!(of,
+                    lobe => lobe.pdf(wo, wi, pdf),
+                    any => Level::best().pdf(any, wo, wi, pdf)
+                )
+            }
+
+            fn eval_pdf(
+                of: AnyBatches<'_, $t>,
+                first: usize,
+                wo: Directions<&[$t]>,
+                wi: Directions<&[$t]>,
+                f_cos: Colours<&mut [$t]>,
+                pdf: &mut [$t],
+            ) -> Result<(), LengthMismatch> {
+                batches!(of,
+                    lobe => lobe.eval_pdf(first, wo, wi, f_cos, pdf),
+                    any => Level::best().eval_pdf(any, wo, wi, of.transport, f_cos, pdf)
+                )
+            }
+
+            fn sample(
+                of: AnyBatches<'_, $t>,
+                first: usize,
+                wo: Directions<&[$t]>,
+                u: [&[$t]; 3],
+                samples: Samples<&mut [$t], &mut [SampleOutcome]>,
+            ) -> Result<(), LengthMismatch> {
+                batches!(of,
+                    lobe => lobe.sample(first, wo, u, samples),
+                    any => Level::best().sample(any, wo, u, of.transport, samples)
+                )
+            }
+        }
+    )*};
+}
+
+compile!(f32, f64);
+
+impl<T: Precision> AnyBatches<'_, T> {
     /// As [`LobeBatches::eval`].
     ///
     /// # Errors
@@ -113,11 +228,7 @@ impl<T: Real> AnyBatches<'_, T> {
         wi: Directions<&[T]>,
         f_cos: Colours<&mut [T]>,
     ) -> Result<(), LengthMismatch> {
-        let transport = self.transport;
-        batches!(self,
-            lobe => lobe.eval(first, wo, wi, f_cos),
-            any => Level::best().eval(any, wo, wi, transport, f_cos)
-        )
+        T::eval(*self, first, wo, wi, f_cos)
     }
 
     /// As [`LobeBatches::pdf`].
@@ -130,10 +241,7 @@ impl<T: Real> AnyBatches<'_, T> {
         wi: Directions<&[T]>,
         pdf: &mut [T],
     ) -> Result<(), LengthMismatch> {
-        batches!(self,
-            lobe => lobe.pdf(wo, wi, pdf),
-            any => Level::best().pdf(any, wo, wi, pdf)
-        )
+        T::pdf(*self, wo, wi, pdf)
     }
 
     /// As [`LobeBatches::eval_pdf`].
@@ -148,11 +256,7 @@ impl<T: Real> AnyBatches<'_, T> {
         f_cos: Colours<&mut [T]>,
         pdf: &mut [T],
     ) -> Result<(), LengthMismatch> {
-        let transport = self.transport;
-        batches!(self,
-            lobe => lobe.eval_pdf(first, wo, wi, f_cos, pdf),
-            any => Level::best().eval_pdf(any, wo, wi, transport, f_cos, pdf)
-        )
+        T::eval_pdf(*self, first, wo, wi, f_cos, pdf)
     }
 
     /// As [`LobeBatches::sample`].
@@ -166,10 +270,6 @@ impl<T: Real> AnyBatches<'_, T> {
         u: [&[T]; 3],
         samples: Samples<&mut [T], &mut [SampleOutcome]>,
     ) -> Result<(), LengthMismatch> {
-        let transport = self.transport;
-        batches!(self,
-            lobe => lobe.sample(first, wo, u, samples),
-            any => Level::best().sample(any, wo, u, transport, samples)
-        )
+        T::sample(*self, first, wo, u, samples)
     }
 }

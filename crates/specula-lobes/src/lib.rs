@@ -28,7 +28,7 @@ mod parameter;
 mod reflectance;
 mod text;
 
-pub use any_lobe::{AnyBatches, AnyLobe};
+pub use any_lobe::{AnyBatches, AnyLobe, Precision};
 pub use facets::MetalFacets;
 pub use given::{Argument, Value};
 pub use kind::Kind;

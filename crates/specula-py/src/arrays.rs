@@ -8,12 +8,12 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyTuple;
-use specula_bsdf::Real;
+use specula_lobes::Precision;
 
 use crate::parameters::invalid;
 
 /// `float32` or `float64`.
-pub(crate) trait Scalar: Real + Element {
+pub(crate) trait Scalar: Precision + Element {
     /// NumPy's name.
     const NAME: &'static str;
 }

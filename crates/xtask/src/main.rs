@@ -16,6 +16,7 @@ mod gpu_report;
 mod instructions;
 mod interface;
 mod interface_single;
+mod lint;
 mod memory;
 mod metals;
 mod msrv;
@@ -69,8 +70,10 @@ enum Chore {
         #[arg(long)]
         check: bool,
     },
-    /// Everything that must pass: format, lints, documentation, tests, tables, tidiness
+    /// Everything that must pass: tests, format, lints, documentation, tables, tidiness
     Test(suite::Suite),
+    /// Check the format, lints, documentation, and some sets of features
+    Lint,
     /// Check that every set of features that users choose compiles
     Features,
     /// Try faults made by machine in `specula-bsdf`: which do its tests notice?
@@ -115,7 +118,7 @@ enum Chore {
     /// Measure a GPU, prove its shaders, and write docs/gpu
     GpuReport(gpu_report::GpuReport),
     /// Compare with other renderers: time to equal error
-    Versus(versus::Versus),
+    Versus(Box<versus::Versus>),
     /// Count where the instructions of a render go, under valgrind
     Profile(profile::Profile),
     /// Measure the gain of a second thread, and the cost of a sample against the triangles
@@ -157,7 +160,8 @@ fn run(chore: &Chore) -> Result<()> {
         Chore::Test(suite) => suite::run(&root, suite),
         Chore::Python(python) => python::run(&root, python),
         Chore::Farm { scenarios } => python::farm(&root, scenarios),
-        Chore::Features => feature_sets::run(&root),
+        Chore::Features => feature_sets::run(&root, feature_sets::Which::All),
+        Chore::Lint => lint::run(&root),
         Chore::Studio(studio) => studio::run(&root, studio),
         Chore::CLibrary(arguments) => c_library::run(&root, arguments),
         Chore::Mutants(sample) => mutants::run(&root, sample),

@@ -9,7 +9,7 @@ mod times;
 use std::path::Path;
 use std::time::Instant;
 
-use crate::{Result, feature_sets, tidy, workspace};
+use crate::{Result, tidy};
 
 /// How to run the suite.
 #[derive(clap::Args)]
@@ -19,66 +19,19 @@ pub(crate) struct Suite {
     strict: bool,
 }
 
-/// A cargo command.
-struct Step {
-    name: &'static str,
-    arguments: &'static [&'static str],
-    /// A variable to set and its value.
-    environment: Option<(&'static str, &'static str)>,
-}
-
-const CARGO_STEPS: &[Step] = &[
-    Step {
-        name: "format",
-        arguments: &["fmt", "--all", "--check"],
-        environment: None,
-    },
-    Step {
-        name: "lints",
-        arguments: &[
-            "clippy",
-            "--workspace",
-            "--all-targets",
-            "--features",
-            "specula/full",
-            "--quiet",
-            "--",
-            "-D",
-            "warnings",
-        ],
-        environment: None,
-    },
-    Step {
-        name: "documentation",
-        arguments: &[
-            "doc",
-            "--workspace",
-            "--no-deps",
-            "--features",
-            "specula/full",
-            "--quiet",
-        ],
-        environment: Some(("RUSTDOCFLAGS", "-D warnings")),
-    },
-];
-
 /// Runs every step, even after one has failed, and prints each with its time.
 pub(crate) fn run(root: &Path, suite: &Suite) -> Result<()> {
     let mut report = Report::default();
     let skips = skips::File::new(root)?;
-    for step in CARGO_STEPS {
-        report.step(step.name, || {
-            let mut command = workspace::cargo(root);
-            command.args(step.arguments).envs(step.environment);
-            match command.status()?.success() {
-                true => Ok(()),
-                false => Err(format!("`cargo {}` failed", step.arguments.join(" ")).into()),
-            }
-        });
-    }
-    report.step("features", || feature_sets::run(root));
     let mut suites = Vec::new();
-    report.step("tests", || tests(root, skips.path(), &mut suites));
+    // Lints compile one crate after the other much of the time: alone they leave a core idle.
+    std::thread::scope(|scope| {
+        let lint = scope.spawn(|| lanes::chore(root, skips.path(), &["lint"]));
+        report.step("tests", || tests(root, skips.path(), &mut suites));
+        if let Ok(lint) = lint.join() {
+            report.chore(lint);
+        }
+    });
     lanes::run(root, skips.path(), &mut report)?;
     report.step("tidy", || tidy::run(root));
     let skipped = skips.read()?;
@@ -114,6 +67,13 @@ impl Report {
             println!("{error}");
         }
         self.line(name, outcome.is_ok(), start.elapsed().as_secs_f64());
+    }
+
+    /// Prints what a chore printed, and how it ended.
+    fn chore(&mut self, (name, outcome, seconds): lanes::Ended) {
+        let passed = lanes::told(&name, outcome);
+        let first = name.split(' ').next().unwrap_or_default();
+        self.line(first, passed, seconds);
     }
 
     fn line(&mut self, name: &str, passed: bool, seconds: f64) {

@@ -121,7 +121,7 @@ fn fifty_subdivisions() {
     let start = std::time::Instant::now();
     let error = in_time(&path).unwrap_err();
     assert!(
-        start.elapsed() < Duration::from_secs(5),
+        start.elapsed() < Duration::from_secs(20),
         "{:?}",
         start.elapsed()
     );
@@ -158,7 +158,7 @@ fn names_of_megabytes_end_at_once_and_are_cut() {
         let start = std::time::Instant::now();
         let error = in_time(&path).unwrap_err();
         assert!(
-            start.elapsed() < Duration::from_secs(5),
+            start.elapsed() < Duration::from_secs(20),
             "{part}: {:?}",
             start.elapsed()
         );

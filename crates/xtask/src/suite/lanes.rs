@@ -1,9 +1,10 @@
-//! Chores that run beside each other: tests of Python wait for a farm, those of the studio for a browser.
+//! Chores that run beside each other, and beside tests: tests of Python wait for a farm, those of the studio for a
+//! browser, lints for one crate after the other.
 
 use std::fs::{self, File};
 use std::io::Write as _;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 use std::sync::Mutex;
 use std::time::Instant;
 
@@ -26,13 +27,32 @@ const LANES: [&[&[&str]]; 2] = [
 pub(super) fn run(root: &Path, skips: &Path, report: &mut Report) -> Result<()> {
     let folder = root.join("target");
     let program = std::env::current_exe()?;
-    let command = |chore: &[&str]| {
-        let mut command = Command::new(&program);
-        command.args(chore).env(specula_testing::FILE, skips);
-        command
-    };
+    let command = |chore: &[&str]| of_this_program(&program, skips, chore);
     beside_each_other(&LANES, &folder, &command, report);
     Ok(())
+}
+
+/// What a chore printed and how it ended, or why it did not run.
+type Outcome = std::result::Result<(Vec<u8>, ExitStatus), String>;
+
+/// A chore's name, how it ended, and its seconds.
+pub(super) type Ended = (String, Outcome, f64);
+
+/// Runs one chore of this program.
+pub(super) fn chore(root: &Path, skips: &Path, chore: &[&str]) -> Ended {
+    let start = Instant::now();
+    let log = root.join(format!("target/chore-{}.log", chore.join("-")));
+    let outcome = std::env::current_exe()
+        .map_err(Into::into)
+        .and_then(|program| logged(&mut of_this_program(&program, skips, chore), &log))
+        .map_err(|error| error.to_string());
+    (chore.join(" "), outcome, start.elapsed().as_secs_f64())
+}
+
+fn of_this_program(program: &Path, skips: &Path, chore: &[&str]) -> Command {
+    let mut command = Command::new(program);
+    command.args(chore).env(specula_testing::FILE, skips);
+    command
 }
 
 fn beside_each_other(
@@ -49,10 +69,9 @@ fn beside_each_other(
                 for chore in *lane {
                     let start = Instant::now();
                     let log = folder.join(format!("chore-{i}.log"));
-                    let outcome = logged(&mut command(chore), &log);
+                    let outcome = logged(&mut command(chore), &log).map_err(|e| e.to_string());
                     let seconds = start.elapsed().as_secs_f64();
-                    let mut report = programs::lock(report);
-                    report.line(chore[0], told(chore, outcome), seconds);
+                    programs::lock(report).chore((chore.join(" "), outcome, seconds));
                 }
             });
         }
@@ -69,8 +88,7 @@ fn logged(command: &mut Command, log: &Path) -> programs::Outcome {
 }
 
 /// Prints a chore's output; whether it passed.
-fn told(chore: &[&str], outcome: programs::Outcome) -> bool {
-    let name = chore.join(" ");
+pub(super) fn told(name: &str, outcome: Outcome) -> bool {
     println!("== {name}");
     match outcome {
         Ok((printed, status)) => {

@@ -65,6 +65,11 @@ impl Contestant {
         self
     }
 
+    /// Whether it is Specula with shared paths.
+    pub(crate) fn shares_paths(&self) -> bool {
+        self.block == Some(Block::Shared)
+    }
+
     fn name(&self) -> String {
         match self.block {
             Some(block) => format!("{}-{}", self.form, block.name()),

@@ -5,6 +5,7 @@ mod flip;
 mod measure;
 #[path = "../../../specula-lab/src/gpu_report/mesh.rs"]
 pub(crate) mod mesh;
+mod metals;
 mod outcome;
 mod plan;
 mod reference;
@@ -29,6 +30,7 @@ use crate::{Result, workspace};
 use block::Block;
 use flip::Denoiser;
 use measure::Contestant;
+use metals::Metals;
 use outcome::Outcome;
 use plan::Plan;
 use renderers::{Pbrt, Served, Specula};
@@ -86,6 +88,9 @@ pub(crate) struct Versus {
     /// Scenes to render [default: all]
     #[arg(long, value_name = "NAME", value_parser = scene_names())]
     scene: Vec<String>,
+    /// Metals of the scenes of the list; with gold and with white, Specula without shared paths against Mitsuba alone
+    #[arg(long, value_enum, value_delimiter = ',', default_values = ["own", "gold", "white"])]
+    metals: Vec<Metals>,
     /// Samplers to choose from, of the renderers that have one of them [default: all]
     #[arg(long, value_name = "NAME", value_parser = sampler_names())]
     sampler: Vec<String>,
@@ -107,7 +112,11 @@ pub(crate) struct Versus {
     /// Mitsuba's variant
     #[arg(long, default_value = "llvm_ad_rgb")]
     variant: String,
+    /// What Cycles renders on: CPU, or an interface of GPUs as it names them (CUDA, OPTIX, HIP, ONEAPI, METAL)
+    #[arg(long, value_name = "NAME", default_value = "CPU")]
+    cycles_device: String,
     /// What Specula renders on, as `specula render --device` takes it; with a GPU, compare with `--variant cuda_ad_rgb`
+    /// and `--cycles-device OPTIX`
     #[arg(long, default_value = "cpu")]
     device: String,
     /// Short renders and few rounds, for a look
@@ -167,7 +176,7 @@ fn publish(root: &Path, out: &Path, text: &str, outcomes: &[Outcome]) -> Result<
     let docs = root.join("docs/versus");
     fs::create_dir_all(&docs)?;
     fs::write(docs.join("README.md"), text)?;
-    for outcome in outcomes {
+    for outcome in outcomes.iter().filter(|o| o.is_shown()) {
         let name = format!("{}.png", outcome.scene.name);
         let size = fs::copy(out.join(&name), docs.join(&name))?;
         if size >= LARGEST_PICTURE {
@@ -194,8 +203,16 @@ impl Versus {
             return self.files.iter().map(|f| Scene::of_file(f)).collect();
         }
         let is_named = |name: &str| self.scene.is_empty() || self.scene.iter().any(|n| n == name);
-        let listed = SCENES.iter().filter(|s| is_named(s.name));
-        listed.map(|s| s.scene(root, &out.join("scenes"))).collect()
+        let folder = out.join("scenes");
+        let with = |metals: Metals| {
+            let listed = SCENES.iter().filter(|s| is_named(s.name));
+            listed.map(|s| s.scene(root, &folder, metals)).collect()
+        };
+        // Mitsuba alone renders the others.
+        let metals = self.metals.iter().copied();
+        let metals = metals.filter(|&m| m == Metals::Own || self.mitsuba.is_some());
+        let scenes: Result<Vec<Vec<Scene>>> = metals.map(with).collect();
+        Ok(scenes?.concat())
     }
 
     fn compare(&self, root: &Path, out: &Path, specula: &Path, scene: Scene) -> Result<Outcome> {
@@ -232,6 +249,11 @@ impl Versus {
                 contestants.push(mitsuba.against("specula-xml", CLOSE));
             }
         }
+        if scene.metals != Metals::Own {
+            contestants.retain(|c| !c.shares_paths());
+            let named = contestants.into_iter().map(|c| c.among(&self.sampler));
+            return Ok(named.collect());
+        }
         let of_pbrt = scene
             .pbrt
             .as_ref()
@@ -245,7 +267,7 @@ impl Versus {
             command
                 .arg(root.join("data/versus/cycles_peer.py"))
                 .arg(file)
-                .arg(self.threads.to_string());
+                .args([&self.threads.to_string(), &self.cycles_device]);
             let engine = Served::start("Cycles", &mut command)?;
             let cycles = Contestant::new("cycles", &CYCLES_SAMPLERS, engine);
             contestants.push(cycles.against(beside_cycles, CLOSE));

@@ -6,6 +6,7 @@ use specula_bsdf::Rgb;
 
 use super::block::Block;
 use super::flip::Flip;
+use super::metals::Metals;
 use super::reference::Reference;
 use super::scenes::Scene;
 use super::statistics::{Errors, Metric, equal_error_ratio, median};
@@ -169,6 +170,11 @@ impl Outcome {
             let in_block = |r: &&Row| r.form == form && r.block == Some(block);
             Some((self.rows.iter().find(in_block)?, theirs))
         })
+    }
+
+    /// Whether the report shows its pictures: not those of the same scene in other metals.
+    pub(crate) fn is_shown(&self) -> bool {
+        self.scene.metals == Metals::Own
     }
 
     /// What is wrong with any row.

@@ -5,6 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use super::mesh;
+use super::metals::Metals;
 use super::sky::{self, Sun};
 use crate::Result;
 
@@ -14,6 +15,8 @@ pub(crate) struct Scene {
     pub(crate) name: String,
     /// What it holds.
     pub(crate) title: String,
+    /// What its metals are.
+    pub(crate) metals: Metals,
     /// First column and row of the detail that the sheet shows; the middle where there is none.
     pub(crate) detail: Option<[usize; 2]>,
     /// The file in Mitsuba's form.
@@ -37,6 +40,7 @@ impl Scene {
         Ok(Self {
             name: name.replace(|c: char| !c.is_ascii_alphanumeric(), "-"),
             title: file.display().to_string(),
+            metals: Metals::Own,
             detail: None,
             mitsuba,
             pbrt,
@@ -94,12 +98,21 @@ pub(crate) const SCENES: [SceneFile; 4] = [
 ];
 
 impl SceneFile {
-    /// The scene in both forms, [prepared](Self::prepare).
-    pub(crate) fn scene(&self, root: &Path, folder: &Path) -> Result<Scene> {
-        let file = self.prepare(root, folder)?;
+    /// The scene in both forms, [prepared](Self::prepare), with these metals.
+    pub(crate) fn scene(&self, root: &Path, folder: &Path, metals: Metals) -> Result<Scene> {
+        let own = self.prepare(root, folder)?;
+        let name = metals.name_of(self.name);
+        let file = folder.join(format!("{name}.xml"));
+        if metals != Metals::Own {
+            for extension in ["pbrt", "xml"] {
+                let text = fs::read_to_string(own.with_extension(extension))?;
+                fs::write(file.with_extension(extension), metals.replace_in(&text))?;
+            }
+        }
         Ok(Scene {
-            name: self.name.to_owned(),
-            title: self.title.to_owned(),
+            name,
+            title: metals.title_of(self.title),
+            metals,
             detail: Some(self.detail),
             pbrt: Some(file.with_extension("pbrt")),
             mitsuba: Some(file),
@@ -148,6 +161,7 @@ pub(crate) mod tests {
         Scene {
             name: SCENES[0].name.to_owned(),
             title: SCENES[0].title.to_owned(),
+            metals: Metals::Own,
             detail: None,
             mitsuba: None,
             pbrt: None,
@@ -164,7 +178,7 @@ pub(crate) mod tests {
     fn scenes_load_without_warnings() {
         let folder = scratch("scenes");
         for scene in &SCENES {
-            let files = scene.scene(&workspace::root(), &folder).unwrap();
+            let files = (scene.scene(&workspace::root(), &folder, Metals::Own)).unwrap();
             for file in files.mitsuba.iter().chain(&files.pbrt) {
                 let loaded = specula_scene::load(file).unwrap();
                 assert!(
