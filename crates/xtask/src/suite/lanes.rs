@@ -8,6 +8,7 @@ use std::process::{Command, ExitStatus, Stdio};
 use std::sync::Mutex;
 use std::time::Instant;
 
+use super::deadline::Deadline;
 use super::{Report, programs};
 use crate::Result;
 
@@ -24,11 +25,17 @@ const LANES: [&[&[&str]]; 2] = [
 /// Runs every chore, even after one has failed, and prints what each printed when it has ended.
 ///
 /// * `skips`: the file to which tests append a line for each skip.
-pub(super) fn run(root: &Path, skips: &Path, report: &mut Report) -> Result<()> {
+pub(super) fn run(
+    root: &Path,
+    skips: &Path,
+    deadline: &Deadline,
+    report: &mut Report,
+) -> Result<()> {
     let folder = root.join("target");
     let program = std::env::current_exe()?;
     let command = |chore: &[&str]| of_this_program(&program, skips, chore);
-    beside_each_other(&LANES, &folder, &command, report);
+    let admits = |chore: &[&str]| deadline.admits_chore(&chore.join(" "));
+    beside_each_other(&LANES, &folder, (&admits, &command), report);
     Ok(())
 }
 
@@ -55,10 +62,15 @@ fn of_this_program(program: &Path, skips: &Path, chore: &[&str]) -> Command {
     command
 }
 
+/// Whether a chore may begin still.
+type Admits<'a> = &'a (dyn Fn(&[&str]) -> bool + Sync);
+/// The command of a chore.
+type Commands<'a> = &'a (dyn Fn(&[&str]) -> Command + Sync);
+
 fn beside_each_other(
     lanes: &[&[&[&str]]],
     folder: &Path,
-    command: &(dyn Fn(&[&str]) -> Command + Sync),
+    (admits, command): (Admits<'_>, Commands<'_>),
     report: &mut Report,
 ) {
     let report = Mutex::new(report);
@@ -66,7 +78,7 @@ fn beside_each_other(
         for (i, lane) in lanes.iter().enumerate() {
             let report = &report;
             scope.spawn(move || {
-                for chore in *lane {
+                for chore in lane.iter().filter(|chore| admits(chore)) {
                     let start = Instant::now();
                     let log = folder.join(format!("chore-{i}.log"));
                     let outcome = logged(&mut command(chore), &log).map_err(|e| e.to_string());
@@ -112,7 +124,10 @@ mod tests {
     #[test]
     #[cfg(unix)]
     fn every_chore_runs_and_those_that_fail_are_named() {
-        let lanes: [&[&[&str]]; 2] = [&[&["exit 3"], &["exit 0"]], &[&["echo there"]]];
+        let lanes: [&[&[&str]]; 2] = [
+            &[&["exit 3"], &["exit 0"]],
+            &[&["left out"], &["echo there"]],
+        ];
         let command = |chore: &[&str]| {
             let mut command = Command::new("sh");
             command.arg("-c").args(chore);
@@ -121,7 +136,8 @@ mod tests {
         let mut report = Report::default();
         let folder = std::env::temp_dir().join(format!("specula-lanes-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
-        beside_each_other(&lanes, &folder, &command, &mut report);
+        let admits = |chore: &[&str]| chore != ["left out"];
+        beside_each_other(&lanes, &folder, (&admits, &command), &mut report);
         assert_eq!(fs::read(folder.join("chore-1.log")).unwrap(), b"there\n");
         fs::remove_dir_all(folder).unwrap();
         report.lines.sort();

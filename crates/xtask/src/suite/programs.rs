@@ -12,6 +12,7 @@ use std::time::Instant;
 
 use serde_json::Value;
 
+use super::deadline::Deadline;
 use super::times::Suite;
 use crate::{Result, workspace};
 
@@ -20,6 +21,10 @@ const SELECTION: [&str; 3] = ["--workspace", "--features", "specula/full"];
 
 /// A package whose programs wait for the GPU's driver.
 const GPU: &str = "specula-gpu";
+/// The longest of them, which begins first.
+const LONGEST: &str = "tests/pictures/main.rs";
+/// A package whose programs come last: a machine that is too slow for all may leave them out.
+const LABORATORY: &str = "specula-lab";
 
 /// A program of tests.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,6 +93,7 @@ fn captured(command: &mut Command) -> Result<(Vec<u8>, ExitStatus)> {
 pub(super) fn run(
     root: &Path,
     environment: &[(&str, &str)],
+    deadline: &Deadline,
     suites: &mut Vec<Suite>,
 ) -> Result<()> {
     let start = Instant::now();
@@ -96,6 +102,7 @@ pub(super) fn run(
     let start = Instant::now();
     let mut failed = two_at_a_time(
         programs,
+        |program| deadline.admits_program(&program.name()),
         |program| {
             let start = Instant::now();
             let outcome = program.run(environment);
@@ -125,7 +132,7 @@ pub(super) fn run(
     }
 }
 
-/// Cargo's programs of tests, the GPU's first.
+/// Cargo's programs of tests, the GPU's first, then the laboratory's.
 fn build(root: &Path) -> Result<VecDeque<Program>> {
     let mut cargo = workspace::cargo(root);
     cargo.arg("test").args(SELECTION);
@@ -137,7 +144,11 @@ fn build(root: &Path) -> Result<VecDeque<Program>> {
     let messages = String::from_utf8_lossy(&output.stdout);
     let programs = messages.lines().filter_map(Program::from_message);
     let mut programs: Vec<Program> = programs.collect();
-    programs.sort_by_key(|p| (p.package() != GPU, p.name()));
+    programs.sort_by_key(|p| {
+        let package = p.package();
+        let [gpu, longest] = [package == GPU, p.source == LONGEST];
+        (!gpu, !longest, package != LABORATORY, p.name())
+    });
     Ok(programs.into())
 }
 
@@ -146,8 +157,11 @@ pub(super) type Outcome = Result<(Vec<u8>, ExitStatus)>;
 
 /// Runs programs from both ends of the queue, and prints what each printed when it has ended; the names of those that
 /// failed.
+///
+/// * `admits`: whether one may begin still.
 fn two_at_a_time(
     programs: VecDeque<Program>,
+    admits: impl Fn(&Program) -> bool + Sync,
     run: impl Fn(&Program) -> (Suite, Outcome) + Sync,
     suites: &mut Vec<Suite>,
 ) -> Vec<String> {
@@ -158,6 +172,9 @@ fn two_at_a_time(
             let Some(program) = take(&mut lock(&queue)) else {
                 return;
             };
+            if !admits(&program) {
+                continue;
+            }
             let (suite, outcome) = run(&program);
             let mut ended = lock(&ended);
             if !told(&program, outcome) {
@@ -225,11 +242,12 @@ mod tests {
 
     #[test]
     fn each_runs_once_and_those_that_fail_are_named() {
-        let packages = ["specula-gpu", "a", "b", "c"];
+        let packages = ["specula-gpu", "a", "late", "b", "c"];
         let programs = packages.map(|p| Program::from_message(&message(p, true)).unwrap());
         let mut suites = Vec::new();
         let failed = two_at_a_time(
             programs.into(),
+            |program| program.package() != "late",
             |program| {
                 let outcome = match program.package() == "b" {
                     true => Err("no such file".into()),
@@ -240,7 +258,7 @@ mod tests {
             &mut suites,
         );
         assert_eq!(failed, ["b tests/a.rs"]);
-        assert_eq!(suites.len(), packages.len());
+        assert_eq!(suites.len(), packages.len() - 1);
     }
 
     #[test]
