@@ -3,6 +3,7 @@
 //! SwiftShader compiles one shader at a time in a process, so that programs of the GPU's tests leave cores idle. Beside
 //! them run those of other crates.
 
+use std::cmp::Reverse;
 use std::collections::VecDeque;
 use std::io::{PipeReader, PipeWriter, Read, Write};
 use std::path::{Path, PathBuf};
@@ -144,10 +145,13 @@ fn build(root: &Path) -> Result<VecDeque<Program>> {
     let messages = String::from_utf8_lossy(&output.stdout);
     let programs = messages.lines().filter_map(Program::from_message);
     let mut programs: Vec<Program> = programs.collect();
+    // The others end with those of the first names, which the second thread takes first: the library's own.
     programs.sort_by_key(|p| {
         let package = p.package();
         let [gpu, longest] = [package == GPU, p.source == LONGEST];
-        (!gpu, !longest, package != LABORATORY, p.name())
+        let name = p.name();
+        let reversed = (!gpu).then(|| Reverse(name.clone()));
+        (!gpu, !longest, package != LABORATORY, reversed, name)
     });
     Ok(programs.into())
 }
