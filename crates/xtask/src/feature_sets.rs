@@ -31,14 +31,11 @@ const SETS: &[(&str, &[&str])] = &[
     ("specula-studio-server", &["", "lab"]),
 ];
 
-/// Those that the tests check: each package without features, and the program with few.
-const IN_TESTS: [(&str, &str); 6] = [
+/// Those that the tests check: the library without features, and the program with few.
+const IN_TESTS: [(&str, &str); 3] = [
     ("specula-bsdf", ""),
-    ("specula-scene", ""),
-    ("specula-gpu", ""),
     ("specula", "cli"),
     ("specula", "cli,gpu"),
-    ("specula-studio-server", ""),
 ];
 
 /// Which sets are checked.
