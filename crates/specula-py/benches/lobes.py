@@ -74,7 +74,7 @@ def mitsuba_sample(n: int, wo: Array, u: Array) -> Callable[[], object] | None:
 
 
 def rust_nanoseconds(program: str, n: int) -> dict[str, float]:
-    """Return what a Rust program, `specula-bsdf`'s example `sample_speed`, measures of its batches."""
+    """Return what a Rust program, `specula-bsdf`'s bench `sample_speed`, measures of its batches."""
     told = subprocess.run([program, str(n)], check=True, capture_output=True, text=True).stdout
     return {name: float(value) for name, value in map(str.split, told.splitlines())}
 
@@ -85,7 +85,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=9, help="rounds of which the least counts")
     parser.add_argument("--mitsuba", action="store_true", help="measure Mitsuba, too")
     parser.add_argument(
-        "--rust", metavar="PROGRAM", help="the built example sample_speed of specula-bsdf"
+        "--rust", metavar="PROGRAM", help="the built bench sample_speed of specula-bsdf"
     )
     options = parser.parse_args()
     n = options.count

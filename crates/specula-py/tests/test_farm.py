@@ -22,7 +22,7 @@ def results() -> dict[str, dict[str, Any]]:
         pytest.skip("Ray runs in a network namespace, which takes unshare and ip: install iproute2")
     if farm_cluster.namespace() is None:
         pytest.skip("not of this machine: Ray runs in a network namespace, which is refused here")
-    return farm_cluster.run(SCRIPT, timeout=900.0)
+    return farm_cluster.run(SCRIPT, timeout=1800.0)
 
 
 @pytest.fixture

@@ -32,11 +32,7 @@ const SETS: &[(&str, &[&str])] = &[
 ];
 
 /// Those that the tests check: the library without features, and the program with few.
-const IN_TESTS: [(&str, &str); 3] = [
-    ("specula-bsdf", ""),
-    ("specula", "cli"),
-    ("specula", "cli,gpu"),
-];
+const IN_TESTS: [(&str, &str); 2] = [("specula-bsdf", ""), ("specula", "cli")];
 
 /// Which sets are checked.
 #[derive(Clone, Copy, PartialEq, Eq)]

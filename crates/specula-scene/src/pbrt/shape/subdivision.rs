@@ -1,8 +1,7 @@
 //! `loopsubdiv`: Loop's subdivision surfaces (Loop 1987), with limit positions and normals.
 
-use std::collections::HashMap;
-
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::{bounded, mesh_error, triangles};
 use crate::Limits;
@@ -71,9 +70,9 @@ impl Control {
         for _ in 0..levels {
             (points, faces) = refine(&points, &faces);
         }
-        let ring = Rings::of(&faces, points.len());
-        let limit: Vec<DVec3> = (0..points.len()).map(|v| ring.limit(v, &points)).collect();
-        let normals: Vec<DVec3> = (0..points.len()).map(|v| ring.normal(v, &limit)).collect();
+        let corners = Corners::of(&faces, points.len());
+        let limit = corners.each(|ring, v| ring.limit(v, &points));
+        let normals = corners.each(|ring, v| ring.normal(v, &limit));
         Ok(Mesh {
             positions: limit.iter().map(|p| p.to_array().map(f32_of)).collect(),
             normals: normals.iter().map(|n| n.to_array().map(f32_of)).collect(),
@@ -91,51 +90,146 @@ fn beta(valence: usize) -> f64 {
     }
 }
 
-/// An edge in the order of its ends.
-fn edge(a: u32, b: u32) -> (u32, u32) {
-    (a.min(b), a.max(b))
-}
-
 /// Cuts every face in four.
 fn refine(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let rings = Rings::of(faces, points.len());
-    let mut fine: Vec<DVec3> = (0..points.len()).map(|v| rings.moved(v, points)).collect();
-    // The vertices across each edge, in the order in which faces meet it.
-    let mut across: HashMap<(u32, u32), Vec<u32>> = HashMap::new();
-    let mut order = Vec::new();
-    for &[a, b, c] in faces {
-        for (from, to, opposite) in [(a, b, c), (b, c, a), (c, a, b)] {
-            let opposites = across.entry(edge(from, to)).or_insert_with(|| {
-                order.push(edge(from, to));
-                Vec::new()
-            });
-            opposites.push(opposite);
-        }
-    }
-    let mut middle: HashMap<(u32, u32), u32> = HashMap::new();
-    for key @ (a, b) in order {
-        let [pa, pb] = [a, b].map(|v| points[v as usize]);
-        let point = match across[&key].as_slice() {
-            [c, d] => {
-                let [pc, pd] = [*c, *d].map(|v| points[v as usize]);
-                (pa + pb) * (3.0 / 8.0) + (pc + pd) * (1.0 / 8.0)
-            }
-            _ => pa.midpoint(pb),
-        };
-        // The limit of vertices fits 32 bits.
-        middle.insert(key, u32::try_from(fine.len()).unwrap_or(u32::MAX));
-        fine.push(point);
-    }
-    let quarters = |&[a, b, c]: &[u32; 3]| {
-        let [ab, bc, ca] = [edge(a, b), edge(b, c), edge(c, a)].map(|e| middle[&e]);
+    let mut fine = Corners::of(faces, points.len()).each(|ring, v| ring.moved(v, points));
+    let edges = Edges::of(faces);
+    // The limit of vertices fits 32 bits.
+    let first = u32::try_from(fine.len()).unwrap_or(u32::MAX);
+    fine.par_extend(
+        edges
+            .sides
+            .par_iter()
+            .map(|side| side.middle(points, faces)),
+    );
+    let quarters = |(i, &[a, b, c]): (usize, &[u32; 3])| {
+        let [ab, bc, ca] = [0, 1, 2].map(|k| first + edges.of_side[3 * i + k]);
         [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
     };
-    let faces = faces.iter().flat_map(quarters).collect();
+    let faces = faces.par_iter().enumerate();
+    let faces = faces.flat_map_iter(|face| quarters(face)).collect();
     (fine, faces)
 }
 
-/// The neighbours of every vertex.
-struct Rings(Vec<Ring>);
+/// Ends of a face's side, sides of all faces being counted one after the other, and the vertex across.
+fn side(faces: &[[u32; 3]], side: u32) -> ([u32; 2], u32) {
+    let face = faces[side as usize / 3];
+    let [a, b, c] = [0, 1, 2].map(|k| face[(side as usize + k) % 3]);
+    ([a, b], c)
+}
+
+/// An edge, by the sides of faces that lie on it.
+struct Edge {
+    first: u32,
+    /// The only other one.
+    second: Option<u32>,
+}
+
+impl Edge {
+    /// The vertex that cuts it.
+    fn middle(&self, points: &[DVec3], faces: &[[u32; 3]]) -> DVec3 {
+        let ([a, b], c) = side(faces, self.first);
+        // In the order of the ends.
+        let [pa, pb, pc] = [a.min(b), a.max(b), c].map(|v| points[v as usize]);
+        match self.second {
+            Some(second) => {
+                let pd = points[side(faces, second).1 as usize];
+                (pa + pb) * (3.0 / 8.0) + (pc + pd) * (1.0 / 8.0)
+            }
+            None => pa.midpoint(pb),
+        }
+    }
+}
+
+/// The edges of a mesh.
+struct Edges {
+    /// In the order in which faces meet them.
+    sides: Vec<Edge>,
+    /// The edge of every side.
+    of_side: Vec<u32>,
+}
+
+impl Edges {
+    fn of(faces: &[[u32; 3]]) -> Self {
+        let count = u32::try_from(3 * faces.len()).unwrap_or(u32::MAX);
+        let key = |i: u32| {
+            let ([a, b], _) = side(faces, i);
+            (u64::from(a.min(b)) << 32 | u64::from(a.max(b)), i)
+        };
+        let mut sorted: Vec<(u64, u32)> = (0..count).into_par_iter().map(key).collect();
+        sorted.par_sort_unstable();
+        // Sides of one edge lie beside each other, the first of them first.
+        let of_one = || sorted.chunk_by(|a, b| a.0 == b.0);
+        let mut of_side = vec![0; sorted.len()];
+        for group in of_one() {
+            of_side[group[0].1 as usize] = 1;
+        }
+        // How many edges are met before each side.
+        let mut met = 0;
+        for place in &mut of_side {
+            met += std::mem::replace(place, met);
+        }
+        let mut sides: Vec<Edge> = Vec::new();
+        sides.resize_with(met as usize, || Edge {
+            first: 0,
+            second: None,
+        });
+        for group in of_one() {
+            let edge = of_side[group[0].1 as usize];
+            sides[edge as usize] = Edge {
+                first: group[0].1,
+                second: if let [_, second] = group {
+                    Some(second.1)
+                } else {
+                    None
+                },
+            };
+            for &(_, side) in group {
+                of_side[side as usize] = edge;
+            }
+        }
+        Self { sides, of_side }
+    }
+}
+
+/// For every vertex, the edges (from, to) across its faces, in the order of these.
+struct Corners {
+    /// Where the edges of each vertex begin, and where the last ones end.
+    begin: Vec<usize>,
+    edges: Vec<(u32, u32)>,
+}
+
+impl Corners {
+    fn of(faces: &[[u32; 3]], vertices: usize) -> Self {
+        let mut begin = vec![0; vertices + 1];
+        for v in faces.iter().flatten() {
+            begin[*v as usize + 1] += 1;
+        }
+        for v in 0..vertices {
+            begin[v + 1] += begin[v];
+        }
+        let mut next = begin.clone();
+        let mut edges = vec![(0, 0); 3 * faces.len()];
+        for &[a, b, c] in faces {
+            for (corner, edge) in [(a, (b, c)), (b, (c, a)), (c, (a, b))] {
+                let at = &mut next[corner as usize];
+                edges[*at] = edge;
+                *at += 1;
+            }
+        }
+        Self { begin, edges }
+    }
+
+    /// A value for every vertex, from its neighbours.
+    fn each(&self, value: impl Fn(&Ring, usize) -> DVec3 + Sync) -> Vec<DVec3> {
+        let vertices = (0..self.begin.len() - 1).into_par_iter();
+        let values = vertices.map_init(Ring::default, |ring, v| {
+            ring.go_around(&self.edges[self.begin[v]..self.begin[v + 1]]);
+            value(ring, v)
+        });
+        values.collect()
+    }
+}
 
 /// The neighbours of one vertex.
 #[derive(Default)]
@@ -145,51 +239,81 @@ struct Ring {
     neighbours: Vec<u32>,
     border: bool,
     ordered: bool,
+    /// The edges by where they begin; of several the last.
+    next: Vec<(u32, u32)>,
+    /// Where edges end, in order.
+    ends: Vec<u32>,
 }
 
-impl Rings {
-    fn of(faces: &[[u32; 3]], vertices: usize) -> Self {
-        // For every vertex, the edges (from, to) across its faces.
-        let mut opposite: Vec<Vec<(u32, u32)>> = vec![Vec::new(); vertices];
-        for &[a, b, c] in faces {
-            opposite[a as usize].push((b, c));
-            opposite[b as usize].push((c, a));
-            opposite[c as usize].push((a, b));
+impl Ring {
+    /// From the edges across the faces around a vertex.
+    fn go_around(&mut self, edges: &[(u32, u32)]) {
+        self.neighbours.clear();
+        (self.border, self.ordered) = (true, false);
+        self.ends.clear();
+        self.ends.extend(edges.iter().map(|e| e.1));
+        self.ends.sort_unstable();
+        self.next.clear();
+        self.next.extend(edges.iter().rev());
+        self.next.sort_by_key(|e| e.0);
+        self.next.dedup_by_key(|e| e.0);
+        let starts = edges.iter().map(|e| e.0);
+        let mut starts = starts.filter(|from| self.ends.binary_search(from).is_err());
+        let start = starts.next();
+        let others = starts.next().is_some();
+        let Some(first) = start.or(edges.first().map(|e| e.0)) else {
+            return;
+        };
+        self.neighbours.push(first);
+        let mut at = first;
+        while let Ok(i) = self.next.binary_search_by_key(&at, |e| e.0) {
+            at = self.next[i].1;
+            if at == first || self.neighbours.len() > edges.len() {
+                break;
+            }
+            self.neighbours.push(at);
         }
-        Self(opposite.iter().map(|edges| Ring::of(edges)).collect())
+        // A disk: one walk over all faces, none of which overlap.
+        let walked = self.neighbours.len() - usize::from(start.is_some());
+        self.ordered = self.next.len() == edges.len() && walked == edges.len() && !others;
+        if !self.ordered {
+            self.neighbours.clear();
+            self.neighbours
+                .extend(edges.iter().flat_map(|e| [e.0, e.1]));
+            self.neighbours.sort_unstable();
+            self.neighbours.dedup();
+        }
+        self.border = start.is_some() || !self.ordered;
     }
 
-    /// An old vertex after one subdivision.
+    /// The vertex after one subdivision.
     fn moved(&self, v: usize, points: &[DVec3]) -> DVec3 {
-        let ring = &self.0[v];
-        if ring.border {
-            return ring.border_point(points[v], points, 1.0 / 8.0);
+        if self.border {
+            return self.border_point(points[v], points, 1.0 / 8.0);
         }
-        ring.interior_point(points[v], points, beta(ring.neighbours.len()))
+        self.interior_point(points[v], points, beta(self.neighbours.len()))
     }
 
-    /// Where a vertex goes after infinitely many.
+    /// Where the vertex goes after infinitely many.
     fn limit(&self, v: usize, points: &[DVec3]) -> DVec3 {
-        let ring = &self.0[v];
-        if ring.border {
-            return ring.border_point(points[v], points, 1.0 / 5.0);
+        if self.border {
+            return self.border_point(points[v], points, 1.0 / 5.0);
         }
-        let n = ring.neighbours.len();
+        let n = self.neighbours.len();
         let gamma = 1.0 / (n as f64 + 3.0 / (8.0 * beta(n)));
-        ring.interior_point(points[v], points, gamma)
+        self.interior_point(points[v], points, gamma)
     }
 
     /// Normal of the limit surface by the tangents of Hoppe et al. 1994, and pbrt-v4's choice of its
     /// side: it looks against the winding. Zero where the neighbourhood is no disk.
     fn normal(&self, v: usize, points: &[DVec3]) -> DVec3 {
-        let ring = &self.0[v];
-        if !ring.ordered {
+        if !self.ordered {
             return DVec3::ZERO;
         }
-        let p = |i: usize| points[ring.neighbours[i] as usize];
-        let n = ring.neighbours.len();
+        let p = |i: usize| points[self.neighbours[i] as usize];
+        let n = self.neighbours.len();
         let (mut s, mut t) = (DVec3::ZERO, DVec3::ZERO);
-        if ring.border {
+        if self.border {
             s = p(n - 1) - p(0);
             t = match n {
                 2 => p(0) + p(1) - 2.0 * points[v],
@@ -211,52 +335,6 @@ impl Rings {
             }
         }
         s.cross(t).normalize_or_zero()
-    }
-}
-
-impl Ring {
-    /// From the edges across the faces around a vertex.
-    fn of(edges: &[(u32, u32)]) -> Self {
-        let mut next: HashMap<u32, u32> = HashMap::new();
-        let mut arrivals: HashMap<u32, u32> = HashMap::new();
-        for &(from, to) in edges {
-            next.insert(from, to);
-            *arrivals.entry(to).or_default() += 1;
-        }
-        let starts: Vec<u32> = edges
-            .iter()
-            .map(|e| e.0)
-            .filter(|from| !arrivals.contains_key(from))
-            .collect();
-        let Some(first) = starts.first().or(edges.first().map(|e| &e.0)).copied() else {
-            return Self {
-                border: true,
-                ..Self::default()
-            };
-        };
-        let mut neighbours = vec![first];
-        let mut at = first;
-        while let Some(&to) = next.get(&at) {
-            if to == first || neighbours.len() > edges.len() {
-                break;
-            }
-            neighbours.push(to);
-            at = to;
-        }
-        let border = !starts.is_empty();
-        // A disk: one walk over all faces, none of which overlap.
-        let walked = neighbours.len() - usize::from(border);
-        let ordered = next.len() == edges.len() && walked == edges.len() && starts.len() <= 1;
-        if !ordered {
-            neighbours = edges.iter().flat_map(|e| [e.0, e.1]).collect();
-            neighbours.sort_unstable();
-            neighbours.dedup();
-        }
-        Self {
-            neighbours,
-            border: border || !ordered,
-            ordered,
-        }
     }
 
     fn interior_point(&self, own: DVec3, points: &[DVec3], weight: f64) -> DVec3 {
@@ -303,6 +381,19 @@ mod tests {
             assert_eq!(mesh.triangles.len(), 8 << (2 * levels));
             assert_eq!(mesh.positions.len(), mesh.triangles.len() / 2 + 2);
         }
+    }
+
+    #[test]
+    fn cuts_are_numbered_as_faces_meet_them() {
+        let points = [DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::Y];
+        let (fine, faces) = refine(&points, &[[0, 1, 2], [0, 2, 3]]);
+        let first = [[0, 4, 6], [4, 1, 5], [6, 5, 2], [4, 5, 6]];
+        let second = [[0, 6, 8], [6, 2, 7], [8, 7, 3], [6, 7, 8]];
+        assert_eq!(faces, [first, second].concat());
+        // At borders halfway; else 3/8 of the ends and 1/8 of the corners across.
+        let within = DVec3::ONE * (3.0 / 8.0) + (DVec3::X + DVec3::Y) / 8.0;
+        assert_eq!(fine[4], DVec3::X / 2.0);
+        assert_eq!(fine[6], within);
     }
 
     #[test]

@@ -18,7 +18,8 @@ use specula_bsdf::{Alpha, Transport};
 const ROUNDS: usize = 3;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let count = match std::env::args().nth(1) {
+    // Cargo adds `--bench`.
+    let count = match std::env::args().skip(1).find(|a| a != "--bench") {
         Some(text) => text.parse()?,
         None => 1 << 20,
     };
