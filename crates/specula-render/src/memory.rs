@@ -396,4 +396,36 @@ mod tests {
         // Packets of its smooth surfaces are full.
         assert!((0.9..1.5).contains(&ratio), "{ratio}");
     }
+
+    #[test]
+    fn patches_are_counted_as_what_they_become() {
+        let n = 60_u16;
+        let at = |i: u16| {
+            let [x, y] = [i % (n + 1), i / (n + 1)].map(f32::from);
+            [x, y, (0.1 * x * y).sin()]
+        };
+        let corners = |k: u16| {
+            let i = k / n * (n + 1) + k % n;
+            [i, i + 1, i + n + 1, i + n + 2].map(u32::from)
+        };
+        let mut scene = builtin::orbs();
+        scene.patch_meshes.push(PatchMesh {
+            positions: (0..(n + 1) * (n + 1)).map(at).collect(),
+            patches: (0..n * n).map(corners).collect(),
+            ..PatchMesh::default()
+        });
+        scene.shapes.truncate(1);
+        scene.shapes[0].emission = None;
+        scene.shapes[0].geometry = Geometry::Patches(specula_scene::scene::PatchMeshId(0));
+        let mut options = RenderOptions::from_scene(&scene);
+        for (triangulates, expected) in [(false, 0.8..1.5), (true, 0.9..1.5)] {
+            options.triangulate_exact_shapes = triangulates;
+            let estimate = MemoryEstimate::new(&scene, &options, 4);
+            let prepared = crate::PreparedScene::new(&scene, &options).unwrap();
+            let stats = prepared.geometry.accel.stats();
+            assert_eq!(stats.patches, if triangulates { 0 } else { 3600 });
+            let ratio = estimate.tree as f64 / stats.bytes as f64;
+            assert!(expected.contains(&ratio), "{triangulates}: {ratio}");
+        }
+    }
 }

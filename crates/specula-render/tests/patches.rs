@@ -25,7 +25,7 @@ fn pillow() -> PatchMesh {
                 let [x, y, z] = key.map(|k| f32::from(k) - 1.0);
                 let bulge = 1.0 + 0.25 * (3.0 * x + 5.0 * y + 7.0 * z).sin();
                 mesh.positions.push([x, y, z].map(|c| c * bulge));
-                u32::try_from(mesh.positions.len() - 1).unwrap()
+                u32::try_from(mesh.positions.len() - 1).expect("few vertices")
             })
         };
         for (i, j) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
@@ -101,7 +101,7 @@ fn closed_meshes_of_curved_patches_vanish_in_a_uniform_sky() {
                 let centre = [shift, 0.0, 0.0];
                 let from = [shift + scale, -3.5 * scale, 2.5 * scale];
                 let mut scene = empty(look(from, centre, 35.0), 12);
-                let m = material(&mut scene, kind.clone());
+                let m = material(&mut scene, *kind);
                 let place = DMat4::from_translation(centre.into())
                     * DMat4::from_rotation_y(0.4)
                     * DMat4::from_scale(DVec3::splat(scale));
@@ -137,7 +137,7 @@ fn fine(mesh: &PatchMesh) -> Mesh {
     let wide = |v: &[[f32; 3]], i: u32| DVec3::from(v[i as usize].map(f64::from));
     for patch in &mesh.patches {
         let [a, b, c, d] = patch.map(|i| wide(&mesh.positions, i));
-        let first = u32::try_from(out.positions.len()).unwrap();
+        let first = u32::try_from(out.positions.len()).expect("few vertices");
         for k in 0..(N + 1) * (N + 1) {
             let [u, v] = [k % (N + 1), k / (N + 1)].map(|x| f64::from(x) / f64::from(N));
             let mix = |[a, b, c, d]: [DVec3; 4]| a.lerp(b, u).lerp(c.lerp(d, u), v);
@@ -195,7 +195,7 @@ fn picture(scene: &Scene, triangulate_exact_shapes: bool) -> Picture {
         triangulate_exact_shapes,
         ..RenderOptions::default()
     };
-    let prepared = PreparedScene::new(scene, &options).unwrap();
+    let prepared = PreparedScene::new(scene, &options).expect("the scene is sound");
     let mut renderer = Renderer::new(&prepared, options);
     renderer.render_pass(16, &AtomicBool::new(false));
     renderer.film().picture()
@@ -227,6 +227,29 @@ fn assert_same(what: &str, [a, b]: [&Picture; 2], slack: f64) {
             variance.sqrt()
         );
     }
+}
+
+#[test]
+fn what_shaders_have_not_is_named() {
+    let mut scene = empty(look([1.0, -3.5, 2.5], [0.0; 3], 35.0), 8);
+    let m = material(&mut scene, diffuse(0.5));
+    let geometry = patches(&mut scene, saddle());
+    scene.shapes.push(shape(geometry, DMat4::IDENTITY, m));
+    scene.lights.push(constant_sky(1.0));
+    let missing = |triangulate_exact_shapes| {
+        let options = RenderOptions {
+            triangulate_exact_shapes,
+            ..RenderOptions::default()
+        };
+        let prepared = PreparedScene::new(&scene, &options).unwrap();
+        prepared.flatten().missing
+    };
+    let named = missing(false);
+    assert!(
+        matches!(&named[..], [one] if one.contains("bilinear patches")),
+        "{named:?}"
+    );
+    assert!(missing(true).is_empty());
 }
 
 fn checks(scene: &mut Scene, [even, odd]: [f32; 2]) -> TextureId {

@@ -415,7 +415,7 @@ fn curved_patches_are_read_exactly_and_written_again() {
 #[test]
 fn patches_that_are_pressed_flat_are_triangles_and_lamps_have_limits() {
     let saddle = "\"bilinearmesh\" \"point3 P\" [0 0 0 1 0 1 0 1 1 1 1 0]";
-    let flat = load(&format!("WorldBegin Scale 1 1 0 Shape {saddle}")).unwrap();
+    let flat = load(format!("WorldBegin Scale 1 1 0 Shape {saddle}")).unwrap();
     let [Geometry::Mesh(id)] = flat
         .scene
         .shapes
