@@ -269,7 +269,7 @@ impl Mesh {
         let group = Group {
             positions: &self.positions,
             triangles: &self.triangles,
-            quadrics: &[],
+            ..Group::default()
         };
         Accel::build(&[group], &[Instance::of(0)]).expect("the mesh is sound")
     }

@@ -4,7 +4,8 @@
 //! a group of its own. Orientation is baked too: a triangle's winding is such that
 //! `(p1 - p0) x (p2 - p0)` points to its outside. The outside is pbrt's: the winding's side,
 //! flipped by `ReverseOrientation`, travelling with the shape under mirroring transforms; where the
-//! mesh has vertex normals, the side that they point to. Spheres and disks follow the same rule
+//! mesh has vertex normals, the side that they point to. Of bilinear patches it is that of `dp/du x dp/dv`, by the same
+//! rules. Spheres and disks follow them, too
 //! (outwards, and +z). pbrt itself turns the hits, though not the light samples, of mirrored
 //! spheres and disks inside out; Specula does not.
 
@@ -13,6 +14,7 @@ mod flat;
 mod footprint;
 mod hit;
 mod partials;
+mod patches;
 mod quadric_parts;
 
 use glam::DMat4;
@@ -51,6 +53,8 @@ pub(crate) struct ShapeRecord {
     /// What it is of, where its material is hair, or a mix with hair in it.
     pub(crate) hair: Option<HairShape>,
     has_uvs: bool,
+    /// Whether the outside of its patches, where they have no normals, is opposite to `dp/du x dp/dv`.
+    is_inside_out: bool,
 }
 
 /// What a shape of hair is.
@@ -90,7 +94,7 @@ pub(crate) struct PlacedQuadric {
     pub(crate) flipped: bool,
 }
 
-/// Triangles and quadrics in one space. Primitives are numbered triangles first.
+/// Triangles, quadrics and bilinear patches in one space. Primitives are numbered in this order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GroupData {
     pub(crate) positions: Vec<[f32; 3]>,
@@ -106,6 +110,8 @@ pub(crate) struct GroupData {
     colours: Vec<[f32; 3]>,
     pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) quadrics: Vec<PlacedQuadric>,
+    /// Vertices `p00`, `p10`, `p01` and `p11` of each.
+    pub(crate) patches: Vec<[u32; 4]>,
     /// Shape of every primitive.
     pub(crate) shape_of: Vec<u32>,
     /// Index of every primitive among the group's lights, or [`NONE`]; ends with the last light.
@@ -117,6 +123,9 @@ pub(crate) struct GroupData {
 /// Memory of a quadric in its group, with its shape's index.
 pub(crate) const BYTES_PER_QUADRIC: u64 =
     (size_of::<PlacedQuadric>() + size_of::<Quadric>() + 8 + size_of::<ShapeRecord>()) as u64;
+
+/// Memory of a patch in its group, without its vertices.
+pub(crate) const BYTES_PER_PATCH: u64 = (size_of::<[u32; 4]>() + 4) as u64;
 
 /// Memory of an instance, with its share of the tree over instances.
 pub(crate) const BYTES_PER_INSTANCE: u64 =
@@ -229,6 +238,7 @@ impl Geometry {
             && (self.groups.iter().zip(groups)).all(|(a, b)| {
                 a.positions == b.positions
                     && a.triangles == b.triangles
+                    && a.patches == b.patches
                     && (a.quadrics.iter().map(PlacedQuadric::in_tree))
                         .eq(b.quadrics.iter().map(PlacedQuadric::in_tree))
             })
@@ -241,10 +251,10 @@ impl Geometry {
         &self.groups[placement.group as usize]
     }
 
-    /// Whether there are parts of quadrics, which shaders have not.
-    pub(crate) fn has_quadric_parts(&self) -> bool {
+    /// Whether there are parts of quadrics or bilinear patches, which shaders have not.
+    pub(crate) fn has_exact_shapes(&self) -> bool {
         let is_part = |q: &PlacedQuadric| matches!(q.shape, QuadricShape::Part(_));
-        self.groups.iter().any(|g| g.quadrics.iter().any(is_part))
+        (self.groups.iter()).any(|g| !g.patches.is_empty() || g.quadrics.iter().any(is_part))
     }
 
     /// Whether all shapes, in the world and in the space of their group, are near enough for rays.
@@ -271,6 +281,7 @@ fn build_accel(groups: &[GroupData], placements: &[Placement]) -> Result<Accel, 
             positions: &g.positions,
             triangles: &g.triangles,
             quadrics,
+            patches: &g.patches,
         })
         .collect();
     let instances: Vec<Instance> = placements

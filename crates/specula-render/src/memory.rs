@@ -7,7 +7,7 @@
 //! ([`MemoryEstimate::after_reading`]).
 
 use specula_scene::Scene;
-use specula_scene::scene::{Geometry, Light, Mesh, ObjectInstance, Shape, Texture};
+use specula_scene::scene::{Geometry, Light, Mesh, ObjectInstance, PatchMesh, Shape, Texture};
 
 use crate::accel::predicted;
 use crate::film::BYTES_PER_PIXEL;
@@ -63,6 +63,8 @@ impl MemoryEstimate {
             ..Self::default()
         };
         let meshes: u64 = scene.meshes.iter().map(mesh_bytes).sum();
+        let patches: u64 = scene.patch_meshes.iter().map(patch_bytes).sum();
+        let meshes = meshes + patches;
         let pictures: u64 = scene.images.iter().map(|i| i.pixels.size()).sum();
         let objects = scene.objects.iter().map(|o| o.shapes.len());
         let shapes = scene.shapes.len() + objects.sum::<usize>();
@@ -82,7 +84,7 @@ impl MemoryEstimate {
         // Materials share them with the scene.
         estimate.textures = measured;
         estimate.add_textures(scene, options, &mut held);
-        estimate.add_geometry(scene, threads, &mut held);
+        estimate.add_geometry(scene, options, threads, &mut held);
         estimate.add_lights(scene, &mut held);
         estimate.preparing = held.peak;
         let pixels = film_pixels(scene, options);
@@ -159,7 +161,13 @@ impl MemoryEstimate {
         }
     }
 
-    fn add_geometry(&mut self, scene: &Scene, threads: usize, held: &mut Held) {
+    fn add_geometry(
+        &mut self,
+        scene: &Scene,
+        options: &RenderOptions,
+        threads: usize,
+        held: &mut Held,
+    ) {
         let mut shown = vec![false; scene.objects.len()];
         for instance in &scene.instances {
             shown[instance.object.0] = true;
@@ -174,15 +182,29 @@ impl MemoryEstimate {
         }
         let mut sizes = Vec::new();
         for group in groups {
-            let mut size = (0, 0);
+            let mut size = [0; 3];
             for shape in group {
+                if let Geometry::Patches(id) = shape.geometry {
+                    let mesh = &scene.patch_meshes[id.0];
+                    let triangulates = options.triangulate_exact_shapes;
+                    let (primitives, baked) = if triangulates || shape.emission.is_some() {
+                        triangulated(mesh)
+                    } else {
+                        let own = crate::geometry::BYTES_PER_PATCH * mesh.patches.len() as u64;
+                        ([0, 0, mesh.patches.len()], patch_bytes(mesh) + own)
+                    };
+                    size = [0, 1, 2].map(|k: usize| size[k] + primitives[k]);
+                    held.add(baked);
+                    self.geometry += baked;
+                    continue;
+                }
                 let Some(index) = mesh_of(shape) else {
-                    size.1 += 1;
+                    size[1] += 1;
                     continue;
                 };
                 let mesh = &scene.meshes[index];
                 let triangles = mesh.triangles.len();
-                size.0 += triangles;
+                size[0] += triangles;
                 // The shape of every triangle, and its light.
                 let per_triangle = if shape.emission.is_some() { 12 } else { 4 };
                 let baked = mesh_bytes(mesh) + (per_triangle * triangles) as u64;
@@ -195,7 +217,7 @@ impl MemoryEstimate {
             }
             sizes.push(size);
         }
-        let quadrics: usize = sizes.iter().map(|s| s.1).sum();
+        let quadrics: usize = sizes.iter().map(|s| s[1]).sum();
         let moving = moving_placements(scene);
         let placements = scene.instances.len() + moving;
         let placed = crate::geometry::BYTES_PER_QUADRIC * quadrics as u64
@@ -212,11 +234,15 @@ impl MemoryEstimate {
     fn add_lights(&mut self, scene: &Scene, held: &mut Held) {
         let objects = scene.instances.iter().map(|i| &scene.objects[i.object.0]);
         let shapes = scene.shapes.iter().chain(objects.flat_map(|o| &o.shapes));
-        let emitters: usize = shapes
+        let emitters: u64 = shapes
             .filter(|s| s.emission.is_some())
-            .map(|s| mesh_of(s).map_or(1, |m| scene.meshes[m].triangles.len()))
+            .map(|s| match s.geometry {
+                Geometry::Mesh(id) => scene.meshes[id.0].triangles.len() as u64,
+                Geometry::Patches(id) => scene.patch_meshes[id.0].triangle_count(),
+                Geometry::Sphere { .. } | Geometry::Disk { .. } | Geometry::QuadricPart(_) => 1,
+            })
             .sum();
-        self.lights = BYTES_PER_EMITTER * emitters as u64;
+        self.lights = BYTES_PER_EMITTER * emitters;
         for id in environment_images(scene) {
             self.lights += BYTES_PER_FAR_PIXEL * pixels(&scene.images[id]);
         }
@@ -252,8 +278,27 @@ fn moving_placements(scene: &Scene) -> usize {
 fn mesh_of(shape: &Shape) -> Option<usize> {
     match shape.geometry {
         Geometry::Mesh(mesh) => Some(mesh.0),
-        Geometry::Sphere { .. } | Geometry::Disk { .. } | Geometry::QuadricPart(_) => None,
+        Geometry::Sphere { .. }
+        | Geometry::Disk { .. }
+        | Geometry::QuadricPart(_)
+        | Geometry::Patches(_) => None,
     }
+}
+
+/// Numbers of triangles, quadrics and patches, and bytes, of patches that become triangles.
+fn triangulated(mesh: &PatchMesh) -> ([usize; 3], u64) {
+    let triangles = mesh.triangle_count();
+    // Cut patches have fewer vertices than triangles. Indices, shape and light of each; position, normal, coordinates.
+    let bytes = triangles * (12 + 12 + 32);
+    (
+        [usize::try_from(triangles).unwrap_or(usize::MAX), 0, 0],
+        bytes,
+    )
+}
+
+fn patch_bytes(mesh: &PatchMesh) -> u64 {
+    let triples = mesh.positions.len() + mesh.normals.len();
+    (12 * triples + 8 * mesh.uvs.len() + 16 * mesh.patches.len()) as u64
 }
 
 fn mesh_bytes(mesh: &Mesh) -> u64 {
@@ -350,5 +395,37 @@ mod tests {
         let ratio = estimate.tree as f64 / built;
         // Packets of its smooth surfaces are full.
         assert!((0.9..1.5).contains(&ratio), "{ratio}");
+    }
+
+    #[test]
+    fn patches_are_counted_as_what_they_become() {
+        let n = 60_u16;
+        let at = |i: u16| {
+            let [x, y] = [i % (n + 1), i / (n + 1)].map(f32::from);
+            [x, y, (0.1 * x * y).sin()]
+        };
+        let corners = |k: u16| {
+            let i = k / n * (n + 1) + k % n;
+            [i, i + 1, i + n + 1, i + n + 2].map(u32::from)
+        };
+        let mut scene = builtin::orbs();
+        scene.patch_meshes.push(PatchMesh {
+            positions: (0..(n + 1) * (n + 1)).map(at).collect(),
+            patches: (0..n * n).map(corners).collect(),
+            ..PatchMesh::default()
+        });
+        scene.shapes.truncate(1);
+        scene.shapes[0].emission = None;
+        scene.shapes[0].geometry = Geometry::Patches(specula_scene::scene::PatchMeshId(0));
+        let mut options = RenderOptions::from_scene(&scene);
+        for (triangulates, expected) in [(false, 0.8..1.5), (true, 0.9..1.5)] {
+            options.triangulate_exact_shapes = triangulates;
+            let estimate = MemoryEstimate::new(&scene, &options, 4);
+            let prepared = crate::PreparedScene::new(&scene, &options).unwrap();
+            let stats = prepared.geometry.accel.stats();
+            assert_eq!(stats.patches, if triangulates { 0 } else { 3600 });
+            let ratio = estimate.tree as f64 / stats.bytes as f64;
+            assert!(expected.contains(&ratio), "{triangulates}: {ratio}");
+        }
     }
 }

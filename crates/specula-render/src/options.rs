@@ -174,9 +174,10 @@ pub struct RenderOptions {
     /// maps that are interpolated bilinearly are filtered by [`Interpolation::EWA`] then, others as
     /// [`RenderOptions::texture_filter`] says; nearest pixels stay.
     pub filter_normal_maps: bool,
-    /// Whether cylinders and parts of spheres and disks become [triangles](specula_scene::scene::QuadricPart::mesh), as
-    /// they must for the GPU. Those that emit always do.
-    pub triangulate_quadrics: bool,
+    /// Whether cylinders, parts of spheres and disks, and bilinear patches become triangles
+    /// ([their meshes](specula_scene::scene::QuadricPart::mesh), [those of patches](specula_scene::scene::PatchMesh::mesh)),
+    /// as they must for the GPU. Those that emit always do.
+    pub triangulate_exact_shapes: bool,
 }
 
 impl RenderOptions {
@@ -207,7 +208,7 @@ impl RenderOptions {
             texture_filter,
             filter_normal_maps,
             // Of the same shapes, within the rounding of their triangles.
-            triangulate_quadrics: _,
+            triangulate_exact_shapes: _,
         } = self;
         // Not which noise: a film goes on to a smaller one as if that had been asked for at first.
         let spread = if noise.is_some() { ", adaptive" } else { "" };
@@ -279,7 +280,7 @@ impl Default for RenderOptions {
             regularize: false,
             texture_filter: TextureFilter::Scene,
             filter_normal_maps: false,
-            triangulate_quadrics: false,
+            triangulate_exact_shapes: false,
         }
     }
 }

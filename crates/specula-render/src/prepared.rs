@@ -160,7 +160,8 @@ impl PreparedScene {
         let view = View::new(&scene.camera, &scene.film, options)?;
         options.texture_filter.apply(&mut scene);
         // Lights are sampled by triangles.
-        scene.triangulate_quadric_parts(|s| options.triangulate_quadrics || s.emission.is_some());
+        let triangulates = options.triangulate_exact_shapes;
+        scene.triangulate_exact_shapes(|s| triangulates || s.emission.is_some());
         let mut textures = Textures::new(&mut scene);
         if options.filter_normal_maps {
             textures.filter_normal_maps(&scene);

@@ -152,11 +152,11 @@ fn gallery(moves: bool) -> Scene {
 fn pictures_are_those_of_the_triangles() {
     for moves in [false, true] {
         let scene = gallery(moves);
-        let [exact, triangles] = [false, true].map(|triangulate_quadrics| {
+        let [exact, triangles] = [false, true].map(|triangulate_exact_shapes| {
             let options = RenderOptions {
                 samples_per_pixel: 16,
                 max_depth: 4,
-                triangulate_quadrics,
+                triangulate_exact_shapes,
                 ..RenderOptions::default()
             };
             let prepared = PreparedScene::new(&scene, &options).unwrap();

@@ -4,7 +4,7 @@ use glam::{DMat4, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::mesh::SERIAL;
-use crate::scene::{Geometry, Mesh, Motion, Scene, Shape, Trajectory};
+use crate::scene::{Geometry, Mesh, Motion, PatchMesh, Scene, Shape, Trajectory};
 
 /// Farthest coordinate of a scene: squares of distances must fit single precision.
 pub(crate) const FARTHEST: f64 = 1e18;
@@ -117,7 +117,11 @@ impl BoundingBox {
 }
 
 /// The box around a geometry in its own space.
-pub(crate) fn of_geometry(meshes: &[Mesh], geometry: &Geometry) -> BoundingBox {
+pub(crate) fn of_geometry(
+    meshes: &[Mesh],
+    patch_meshes: &[PatchMesh],
+    geometry: &Geometry,
+) -> BoundingBox {
     match *geometry {
         Geometry::Mesh(id) => {
             let mesh = &meshes[id.0];
@@ -158,6 +162,13 @@ pub(crate) fn of_geometry(meshes: &[Mesh], geometry: &Geometry) -> BoundingBox {
                 max: DVec3::from(least(-1.0)),
             }
         }
+        // A patch lies within the hull of its corners.
+        Geometry::Patches(id) => {
+            let mesh = &patch_meshes[id.0];
+            let corners = mesh.patches.iter().flatten();
+            let points = corners.map(|&i| Vec3::from(mesh.positions[i as usize]).as_dvec3());
+            points.fold(BoundingBox::EMPTY, BoundingBox::including)
+        }
     }
 }
 
@@ -174,7 +185,8 @@ pub(crate) fn of_file(scene: &Scene) -> BoundingBox {
 fn of_shapes_where(scene: &Scene, counts: impl Fn(&Shape) -> bool) -> BoundingBox {
     let of_shapes = |shapes: &[Shape]| {
         let boxes = (shapes.iter().filter(|s| counts(s))).map(|s| {
-            of_geometry(&scene.meshes, &s.geometry).placed(&s.to_world, s.motion.as_ref())
+            of_geometry(&scene.meshes, &scene.patch_meshes, &s.geometry)
+                .placed(&s.to_world, s.motion.as_ref())
         });
         boxes.fold(BoundingBox::EMPTY, BoundingBox::union)
     };

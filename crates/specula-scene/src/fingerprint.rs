@@ -39,6 +39,7 @@ impl Scene {
             materials,
             measured,
             meshes,
+            patch_meshes,
             shapes,
             objects,
             instances,
@@ -62,6 +63,9 @@ impl Scene {
         // Without a length: scenes that have none have the numbers that they had before there were any.
         for brdf in measured {
             brdf.content.feed(&mut hash);
+        }
+        for patches in patch_meshes {
+            patches.feed(&mut hash);
         }
         for (i, _) in meshes.iter().enumerate().filter(|(_, m)| m.is_fibre) {
             i.feed(&mut hash);

@@ -12,6 +12,8 @@ use crate::scene::Mesh;
 pub(crate) struct Cleaning {
     /// Triangles without area that were dropped.
     pub(crate) dropped_triangles: usize,
+    /// Patches without area that were dropped.
+    pub(crate) dropped_patches: usize,
     /// Shading normals that were zero or not finite and became geometric ones.
     pub(crate) replaced_normals: usize,
     /// Whether the surface coordinates were dropped because some were not finite.
@@ -25,6 +27,10 @@ impl Cleaning {
         if self.dropped_triangles > 0 {
             let count = self.dropped_triangles;
             messages.push(format!("{count} triangles without area are dropped"));
+        }
+        if self.dropped_patches > 0 {
+            let count = self.dropped_patches;
+            messages.push(format!("{count} patches without area are dropped"));
         }
         if self.replaced_normals > 0 {
             let count = self.replaced_normals;

@@ -5,7 +5,7 @@ use glam::{DMat4, DVec3};
 use crate::Limits;
 use crate::mesh;
 use crate::num::f32_of;
-use crate::scene::{Geometry, Mesh, MeshId, Shape};
+use crate::scene::{Geometry, Mesh, MeshId, PatchMesh, Shape};
 use crate::transform::is_invertible;
 
 /// Sines of angles below this are rounding: what they span has no area.
@@ -48,6 +48,7 @@ impl Press {
     /// The shape under a transform that cannot be inverted.
     ///
     /// * `to_world`: leads from the shape's own space to that of the result.
+    /// * `meshes`, `patch_meshes`: those of the scene; what is left of a shape may become a new mesh.
     ///
     /// # Errors
     ///
@@ -57,6 +58,7 @@ impl Press {
         shape: &Shape,
         to_world: &DMat4,
         meshes: &mut Vec<Mesh>,
+        patch_meshes: &[PatchMesh],
     ) -> Result<Pressed, String> {
         let Some(normal) = plane(to_world) else {
             return Ok(Pressed::Nothing);
@@ -66,10 +68,11 @@ impl Press {
         let flat = match shape.geometry {
             Geometry::Mesh(MeshId(i)) => self.flat(&meshes[i], to_world)?,
             Geometry::QuadricPart(part) => self.flat(&part.mesh(), to_world)?,
+            Geometry::Patches(id) => self.flat(&patch_meshes[id.0].mesh(), to_world)?,
             Geometry::Sphere { .. } | Geometry::Disk { .. } => None,
         };
         let is_kept = match shape.geometry {
-            Geometry::Mesh(_) | Geometry::QuadricPart(_) => {
+            Geometry::Mesh(_) | Geometry::QuadricPart(_) | Geometry::Patches(_) => {
                 pressed.to_world = DMat4::IDENTITY;
                 pressed.geometry = Geometry::Mesh(MeshId(meshes.len()));
                 flat.map(|mesh| meshes.push(mesh)).is_some()
@@ -183,7 +186,7 @@ mod tests {
     fn press(geometry: Geometry, m: DMat4, meshes: &mut Vec<Mesh>) -> Option<Shape> {
         let shape = Shape::new(geometry, m, MaterialId(0));
         match Press::new(&Limits::default())
-            .shape(&shape, &m, meshes)
+            .shape(&shape, &m, meshes, &[])
             .unwrap()
         {
             Pressed::Flat(shape) => Some(*shape),
@@ -283,8 +286,8 @@ mod tests {
         let mut press = Press::new(&limits);
         let m = DMat4::from_scale(DVec3::new(1.0, 1.0, 0.0));
         let shape = Shape::new(Geometry::Mesh(MeshId(0)), m, MaterialId(0));
-        press.shape(&shape, &m, &mut meshes).unwrap();
-        let error = press.shape(&shape, &m, &mut meshes).unwrap_err();
+        press.shape(&shape, &m, &mut meshes, &[]).unwrap();
+        let error = press.shape(&shape, &m, &mut meshes, &[]).unwrap_err();
         assert!(error.contains("`max_vertices`"), "{error}");
     }
 }

@@ -9,6 +9,7 @@ mod lens;
 mod light;
 mod material;
 mod motion;
+mod patch_mesh;
 mod quadric_part;
 mod shape;
 mod texture;
@@ -22,6 +23,7 @@ pub use material::{
     MaterialKind, MicrofacetDistribution, PrincipledMaterial, Roughness, RoughnessMapping,
 };
 pub use motion::{Motion, Trajectory};
+pub use patch_mesh::PatchMesh;
 pub use quadric_part::QuadricPart;
 pub use shape::{Emission, Geometry, Mesh, Object, ObjectInstance, Shape};
 pub use texture::{
@@ -48,6 +50,9 @@ pub struct MeasuredId(pub usize);
 /// Index into [`Scene::meshes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MeshId(pub usize);
+/// Index into [`Scene::patch_meshes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct PatchMeshId(pub usize);
 /// Index into [`Scene::objects`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ObjectId(pub usize);
@@ -74,6 +79,8 @@ pub struct Scene {
     pub measured: Vec<MeasuredBrdf>,
     /// Triangle meshes in their own space.
     pub meshes: Vec<Mesh>,
+    /// Meshes of bilinear patches in their own space.
+    pub patch_meshes: Vec<PatchMesh>,
     /// Shapes of the world.
     pub shapes: Vec<Shape>,
     /// Groups of shapes that instances refer to.
@@ -132,6 +139,7 @@ impl Scene {
             materials: Vec::new(),
             measured: Vec::new(),
             meshes: Vec::new(),
+            patch_meshes: Vec::new(),
             shapes: Vec::new(),
             objects: Vec::new(),
             instances: Vec::new(),

@@ -58,7 +58,10 @@ impl Summary {
     pub fn of(scene: &Scene) -> Self {
         let mesh_triangles = |shape: &Shape| match shape.geometry {
             Geometry::Mesh(id) => scene.meshes[id.0].triangles.len() as u64,
-            Geometry::Sphere { .. } | Geometry::Disk { .. } | Geometry::QuadricPart(_) => 0,
+            Geometry::Sphere { .. }
+            | Geometry::Disk { .. }
+            | Geometry::QuadricPart(_)
+            | Geometry::Patches(_) => 0,
         };
         let in_object = |i: usize| {
             scene.objects[i]
@@ -127,6 +130,7 @@ fn shape_kind(shape: &Shape) -> &'static str {
         Geometry::QuadricPart(QuadricPart::Sphere { .. }) => "partial sphere",
         Geometry::QuadricPart(QuadricPart::Cylinder { .. }) => "cylinder",
         Geometry::QuadricPart(QuadricPart::Disk { .. }) => "partial disk",
+        Geometry::Patches(_) => "patch mesh",
     }
 }
 

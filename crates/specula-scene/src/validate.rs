@@ -10,8 +10,8 @@ use crate::bounds::{self, FARTHEST};
 use crate::image::Image;
 use crate::mesh::{first, is_finite, is_zero};
 use crate::scene::{
-    Filter, Geometry, ImageProjection, Light, Mesh, Motion, ObjectInstance, Profile, Projection,
-    Scene, Shape,
+    Filter, Geometry, ImageProjection, Light, Mesh, Motion, ObjectInstance, PatchMesh, Profile,
+    Projection, Scene, Shape,
 };
 use crate::transform::mirrors;
 
@@ -54,7 +54,7 @@ impl Scene {
     ///   indices of refraction are above 0; directions of lights have length 1;
     /// * every transform is finite in `f32`, affine and invertible; what moves does not emit, and mirrors at both
     ///   ends of its motion or at neither;
-    /// * meshes have triangles; attributes are empty or one per vertex; shading normals are not 0;
+    /// * meshes have triangles or patches; attributes are empty or one per vertex; shading normals are not 0;
     /// * the picture has pixels, the crop lies in it and is not empty;
     /// * nothing reaches beyond 1e18 from the origin;
     /// * there is a shape, or an instance of an object that has one.
@@ -97,6 +97,9 @@ impl Scene {
             .collect();
         for mesh in checked {
             hear(mesh)?;
+        }
+        for (i, mesh) in self.patch_meshes.iter().enumerate() {
+            hear(check_patch_mesh(&format!("patch mesh {i}"), mesh))?;
         }
         for (i, shape) in self.shapes.iter().enumerate() {
             hear(self.check_shape(&format!("shape {i}"), shape))?;
@@ -264,6 +267,11 @@ impl Scene {
                 Some(fault) => ensure(false, what, fault),
                 None => Ok(()),
             },
+            Geometry::Patches(id) => ensure(
+                id.0 < self.patch_meshes.len(),
+                what,
+                "its mesh of patches is out of range",
+            ),
         }
     }
 
@@ -454,6 +462,18 @@ pub(crate) fn is_rectangle(corners: &[[f64; 3]; 4]) -> bool {
         && at_corners.iter().all(|c| c.abs() <= TOLERANCE)
 }
 
+fn check_patch_mesh(what: &str, mesh: &PatchMesh) -> Result<(), Invalid> {
+    ensure(!mesh.patches.is_empty(), what, "it has no patches")?;
+    let count = mesh.positions.len();
+    let is_outside = mesh.patches.iter().flatten().any(|i| *i as usize >= count);
+    ensure(
+        !is_outside,
+        what,
+        "a patch refers to a vertex that does not exist",
+    )?;
+    check_vertices(what, [&mesh.positions, &mesh.normals], &mesh.uvs)
+}
+
 fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {
     let count = mesh.positions.len();
     ensure(!mesh.triangles.is_empty(), what, "it has no triangles")?;
@@ -463,28 +483,7 @@ fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {
         what,
         "a triangle refers to a vertex that does not exist",
     )?;
-    let not_finite = |p: &[f32; 3]| !is_finite(p);
-    ensure(
-        first(&mesh.positions, not_finite).is_none(),
-        what,
-        "a vertex is not finite",
-    )?;
-    ensure(
-        [0, count].contains(&mesh.normals.len()),
-        what,
-        "it has not one normal per vertex",
-    )?;
-    ensure(
-        [0, count].contains(&mesh.uvs.len()),
-        what,
-        "it has not one surface coordinate per vertex",
-    )?;
-    let no_normal = |n: &[f32; 3]| !is_finite(n) | is_zero(n);
-    ensure(
-        first(&mesh.normals, no_normal).is_none(),
-        what,
-        "a normal is 0 or not finite",
-    )?;
+    check_vertices(what, [&mesh.positions, &mesh.normals], &mesh.uvs)?;
     ensure(
         [0, count].contains(&mesh.colours.len())
             && mesh
@@ -500,12 +499,47 @@ fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {
         what,
         "it has not one second coordinate and one tangent per vertex",
     )?;
-    let sets = [&mesh.uvs, &mesh.second_uvs];
-    let finite_uvs = sets.map(|uvs| first(uvs, |uv| !is_finite(uv)).is_none());
+    let has_finite_uvs = first(&mesh.second_uvs, |uv| !is_finite(uv)).is_none();
     ensure(
-        finite_uvs == [true; 2] && first(&mesh.tangents, |t| !is_finite(t)).is_none(),
+        has_finite_uvs && first(&mesh.tangents, |t| !is_finite(t)).is_none(),
         what,
-        "a surface coordinate or a tangent is not finite",
+        "a second surface coordinate or a tangent is not finite",
+    )
+}
+
+/// What vertices of triangles and of patches have.
+fn check_vertices(
+    what: &str,
+    [positions, normals]: [&[[f32; 3]]; 2],
+    uvs: &[[f32; 2]],
+) -> Result<(), Invalid> {
+    let count = positions.len();
+    let not_finite = |p: &[f32; 3]| !is_finite(p);
+    ensure(
+        first(positions, not_finite).is_none(),
+        what,
+        "a vertex is not finite",
+    )?;
+    ensure(
+        [0, count].contains(&normals.len()),
+        what,
+        "it has not one normal per vertex",
+    )?;
+    ensure(
+        [0, count].contains(&uvs.len()),
+        what,
+        "it has not one surface coordinate per vertex",
+    )?;
+    let no_normal = |n: &[f32; 3]| !is_finite(n) | is_zero(n);
+    ensure(
+        first(normals, no_normal).is_none(),
+        what,
+        "a normal is 0 or not finite",
+    )?;
+    ensure(
+        first(uvs, |uv| !is_finite(uv)).is_none(),
+        what,
+        "a surface coordinate is not finite",
     )
 }
 

@@ -292,7 +292,7 @@ fn speed(
     let scene = subject.load()?;
     let options = RenderOptions {
         resolution: Some([effort.side; 2]),
-        triangulate_quadrics: true,
+        triangulate_exact_shapes: true,
         ..RenderOptions::from_scene(&scene)
     };
     let prepared = PreparedScene::consume(scene, &options)?;
@@ -374,7 +374,7 @@ pub(super) fn agreement(gpu: &Gpu, effort: &Effort<'_>, files: &[PathBuf]) -> Re
         let scene = subject.load()?;
         let options = RenderOptions {
             resolution: Some([128; 2]),
-            triangulate_quadrics: true,
+            triangulate_exact_shapes: true,
             ..RenderOptions::from_scene(&scene)
         };
         let prepared = PreparedScene::consume(scene, &options)?;

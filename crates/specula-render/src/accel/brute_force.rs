@@ -17,10 +17,12 @@
 use core::ops::{Index, IndexMut};
 
 use macro_rules_attribute::apply;
+use specula_bsdf::Vec3;
 
 use super::clusters::{CORNERS, Cluster, Plane};
-use super::frame::greatest_axis;
+use super::frame::{AXES, greatest_axis};
 use super::node::ChildKind;
+use super::patch::PreparedPatch;
 use super::quadric::{self, Approach, PreparedQuadric};
 use super::traverse::Scene;
 use super::triangle;
@@ -31,11 +33,13 @@ use crate::simd::simd_levels;
 const PACK: usize = 16;
 /// Most rays that are sorted together.
 const BATCH: usize = 512;
-/// Most triangles of a small scene, a quadric counting as [`QUADRIC`] of them. Measured in rooms with
+/// Most triangles of a small scene, a quadric counting as [`QUADRIC`] of them, a patch as [`PATCH`]. Measured in rooms with
 /// boxes and spheres: at twice as many the tree is as fast.
 const MOST: usize = 64;
 /// Triangles that take as long as a quadric.
 const QUADRIC: usize = 3;
+/// Triangles that take as long as a patch, whose lanes are tested one after the other.
+const PATCH: usize = 8;
 
 /// One component of each ray of a pack: one cache line.
 #[derive(Clone, Copy, Debug)]
@@ -69,11 +73,14 @@ pub(super) struct SmallScene {
     clusters: Vec<Cluster>,
     /// The same for shadow rays, which cross few planes, in more clusters.
     occluders: Vec<Cluster>,
-    /// Of the triangles and then of the quadrics, ascending.
+    /// Of the triangles, then of the quadrics, then of the patches, ascending.
     primitives: Vec<u32>,
     quadrics: Vec<PreparedQuadric>,
     /// How many triangles there are.
     first_quadric: u32,
+    patches: Vec<PreparedPatch>,
+    /// How many triangles and quadrics there are.
+    first_patch: u32,
     instance: u32,
 }
 
@@ -81,25 +88,27 @@ impl SmallScene {
     /// `None` where the scene is empty, too large, or anything but one untransformed instance.
     pub(super) fn new(scene: &Scene) -> Option<Self> {
         let instance = scene.single?;
-        if scene.packets.len() + scene.quadrics.len() > MOST {
+        if scene.packets.len() + scene.quadrics.len() + scene.patches.len() > MOST {
             return None;
         }
         let mut triangles: Vec<(u32, [[f32; 3]; 3])> = Vec::new();
         let mut quadrics: Vec<PreparedQuadric> = Vec::new();
+        let mut patches: Vec<PreparedPatch> = Vec::new();
         let mut pending = vec![scene.root?];
         while let Some(child) = pending.pop() {
             match child.kind() {
                 ChildKind::Node => pending.extend(scene.nodes[child.index()].occupied()),
                 ChildKind::Packet => triangles.extend(scene.packets[child.index()].occupied()),
                 ChildKind::Quadric => quadrics.push(scene.quadrics[child.index()]),
-                ChildKind::Placement => return None,
+                ChildKind::PatchOrPlacement => patches.push(scene.patches[child.index()]),
             }
         }
-        if triangles.len() + QUADRIC * quadrics.len() > MOST {
+        if triangles.len() + QUADRIC * quadrics.len() + PATCH * patches.len() > MOST {
             return None;
         }
         triangles.sort_unstable_by_key(|t| t.0);
         quadrics.sort_unstable_by_key(|q| q.primitive);
+        patches.sort_unstable_by_key(|p| p.primitive);
         let bounds = (triangles.iter())
             .map(|(_, corners)| Bounds::around(corners))
             .fold(Bounds::EMPTY, |all, own| all.union(&own));
@@ -110,9 +119,12 @@ impl SmallScene {
                 .iter()
                 .map(|t| t.0)
                 .chain(quadrics.iter().map(|q| q.primitive))
+                .chain(patches.iter().map(|p| p.primitive))
                 .collect(),
             first_quadric: crate::convert::id(triangles.len()),
+            first_patch: crate::convert::id(triangles.len() + quadrics.len()),
             quadrics,
+            patches,
             instance,
         })
     }
@@ -188,7 +200,7 @@ struct Pack {
     t: Column,
     u: Column,
     v: Column,
-    /// Index in the list of triangles, then of quadrics.
+    /// Index in the list of triangles, then of quadrics, then of patches.
     place: [u32; PACK],
 }
 
@@ -211,7 +223,7 @@ const ENDED: f32 = -1.0;
 /// A cluster's corners, sheared.
 type Sheared = [[Column; 3]; CORNERS];
 
-/// No triangle or quadric.
+/// No triangle, quadric or patch.
 const NOTHING: u32 = u32::MAX;
 
 impl Pack {
@@ -440,6 +452,34 @@ impl Pack {
         }
     }
 
+    /// Updates the hits by a patch.
+    ///
+    /// * `axes`: of the rays' directions, the greatest last.
+    #[inline(always)]
+    fn offer_patch<const ANY: bool>(&mut self, patch: &PreparedPatch, axes: [u8; 3], place: u32) {
+        for lane in 0..PACK {
+            if self.t[lane] <= 0.0 {
+                continue;
+            }
+            let ray = Ray {
+                origin: Vec3::from(at(&self.origin, lane)),
+                direction: Vec3::from(at(&self.direction, lane)),
+                t_max: self.t[lane],
+            };
+            let Some(hit) = patch.hit(&ray, axes).filter(|hit| hit.t < self.t[lane]) else {
+                continue;
+            };
+            if ANY {
+                self.end(lane, true);
+                continue;
+            }
+            self.t[lane] = hit.t;
+            self.u[lane] = hit.u;
+            self.v[lane] = hit.v;
+            self.place[lane] = place;
+        }
+    }
+
     /// Updates the hits by all primitives: the closest ones, or just whether there are any.
     #[inline(always)]
     fn offer_all<const ANY: bool>(
@@ -460,6 +500,9 @@ impl Pack {
         }
         for (place, quadric) in (small.first_quadric..).zip(&small.quadrics) {
             self.offer_quadric::<ANY>(quadric, place);
+        }
+        for (place, patch) in (small.first_patch..).zip(&small.patches) {
+            self.offer_patch::<ANY>(patch, AXES[axis], place);
         }
     }
 }

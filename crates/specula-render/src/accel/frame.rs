@@ -9,6 +9,9 @@ use super::Ray;
 /// [`super::triangle`].
 pub(super) const SLACK: f32 = 1.0 + 8.0 * f32::EPSILON;
 
+/// The axes in the order in which rays are sheared, by that in which the direction is greatest: it is the last.
+pub(super) const AXES: [[u8; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+
 /// A finite ray and what is computed from it once.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RayFrame {
@@ -35,7 +38,6 @@ impl RayFrame {
     pub(super) fn new(ray: &Ray) -> Option<Self> {
         let z = usize::from(greatest_axis(ray)?);
         let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
-        const AXES: [[u8; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
         let axes = AXES[z];
         let [x, y] = [usize::from(axes[0]), usize::from(axes[1])];
         let near_scale = d.map(|c| 1.0 / c);

@@ -7,7 +7,7 @@ use super::collapse::{self, Tree};
 use super::kernel::MAX_DEPTH;
 use super::node::{Child, ChildKind, Node8, Packet8};
 use super::traverse::Scene;
-use super::{Bounds, Group, quadric, triangle};
+use super::{Bounds, Group, patch, quadric, triangle};
 
 /// A group's arrays, with indices of its own, and their tree.
 pub(super) struct GroupTree {
@@ -28,6 +28,7 @@ struct Arrays {
 struct Leaves {
     packets: Vec<Packet8>,
     quadrics: Vec<quadric::PreparedQuadric>,
+    patches: Vec<patch::PreparedPatch>,
 }
 
 /// Levels of the tree over the parts of chunks, and of each part: balanced trees over
@@ -60,7 +61,8 @@ impl GroupTree {
         let tree = match items.len() {
             0 => return None,
             n if n <= 2 * chunks::CHUNK => {
-                arrays.reserve(n - group.quadrics.len().min(n));
+                let others = group.quadrics.len() + group.patches.len();
+                arrays.reserve(n - others.min(n));
                 let Arrays { nodes, leaves } = &mut arrays;
                 collapse::build(
                     &bounds(&items),
@@ -85,12 +87,14 @@ impl GroupTree {
             leaves: Leaves {
                 packets: std::mem::take(&mut scene.packets),
                 quadrics: std::mem::take(&mut scene.quadrics),
+                patches: std::mem::take(&mut scene.patches),
             },
         };
         let offset = arrays.append(self.arrays);
         scene.nodes = arrays.nodes;
         scene.packets = arrays.leaves.packets;
         scene.quadrics = arrays.leaves.quadrics;
+        scene.patches = arrays.leaves.patches;
         offset.tree(self.tree)
     }
 }
@@ -110,7 +114,20 @@ fn items(group: &Group<'_>) -> Vec<Item> {
         primitive: u32::try_from(primitive).expect("counts are checked"),
         count: 1,
     }));
+    let first_patch = group.triangles.len() + group.quadrics.len();
+    let patches = (first_patch..).zip(0..group.patches.len());
+    items.extend(patches.filter_map(|(primitive, i)| {
+        Some(Item {
+            bounds: patch::bounds(&patch_corners(group, i))?,
+            primitive: u32::try_from(primitive).expect("counts are checked"),
+            count: 1,
+        })
+    }));
     items
+}
+
+fn patch_corners(group: &Group<'_>, patch: usize) -> [[f32; 3]; 4] {
+    group.patches[patch].map(|v| group.positions[v as usize])
 }
 
 /// Writes the items of a block of triangles, from `first` on; those without an item stay zero.
@@ -142,7 +159,7 @@ fn pair(group: &Group<'_>, first: usize, items: &mut [Item]) {
     }
 }
 
-/// How many triangles an item has; 0 for a quadric.
+/// How many triangles an item has; 0 for a quadric or a patch.
 fn triangles(group: &Group<'_>, item: &Item) -> usize {
     match (item.primitive as usize) < group.triangles.len() {
         true => item.count as usize,
@@ -196,7 +213,13 @@ impl Leaves {
     fn write(&mut self, group: &Group<'_>, items: &[Item], leaf: &[u32]) -> Child {
         let first = &items[leaf[0] as usize];
         if triangles(group, first) == 0 {
-            let quadric = &group.quadrics[first.primitive as usize - group.triangles.len()];
+            let index = first.primitive as usize - group.triangles.len();
+            let Some(quadric) = group.quadrics.get(index) else {
+                let corners = patch_corners(group, index - group.quadrics.len());
+                let patch = patch::PreparedPatch::new(corners, first.primitive);
+                self.patches.push(patch);
+                return Child::new(ChildKind::PatchOrPlacement, self.patches.len() - 1);
+            };
             let placed = quadric::PreparedQuadric::new(quadric, first.primitive);
             self.quadrics.push(placed);
             return Child::new(ChildKind::Quadric, self.quadrics.len() - 1);
@@ -260,7 +283,7 @@ impl Arrays {
             self.nodes.len(),
             self.leaves.packets.len(),
             self.leaves.quadrics.len(),
-            0,
+            self.leaves.patches.len(),
         ]);
         if self.nodes.capacity() == 0 && offset.0 == [0; 4] {
             *self = other;
@@ -276,6 +299,7 @@ impl Arrays {
         let packets = other.leaves.packets.par_iter().with_min_len(COPIED);
         self.leaves.packets.par_extend(packets);
         self.leaves.quadrics.extend(other.leaves.quadrics);
+        self.leaves.patches.extend(other.leaves.patches);
         offset
     }
 }

@@ -14,6 +14,8 @@ pub struct Group<'a> {
     pub triangles: &'a [[u32; 3]],
     /// Spheres and disks. Primitives from `triangles.len()` on.
     pub quadrics: &'a [Quadric],
+    /// Bilinear patches, as indices of their vertices `p00`, `p10`, `p01` and `p11`. Primitives behind those.
+    pub patches: &'a [[u32; 4]],
 }
 
 /// A group, placed in the world.
@@ -53,6 +55,18 @@ pub enum AccelError {
         /// How many vertices the group has.
         vertices: usize,
     },
+    /// A patch names a vertex that does not exist.
+    #[error("patch {patch} of group {group} uses vertex {vertex}, but there are {vertices}")]
+    PatchVertexOutOfRange {
+        /// The group.
+        group: usize,
+        /// The patch within it.
+        patch: usize,
+        /// The vertex that it names.
+        vertex: u32,
+        /// How many vertices the group has.
+        vertices: usize,
+    },
     /// An instance names a group that does not exist.
     #[error("instance {instance} uses group {group}, but there are {groups}")]
     GroupOutOfRange {
@@ -85,14 +99,14 @@ pub enum AccelError {
     },
 }
 
-/// Indices of nodes, packets, quadrics and instances have 30 bits.
+/// Indices of nodes, packets, quadrics, patches and instances have 30 bits.
 const MOST: usize = 1 << 29;
 
 /// Checks every index and transform, so that the build and the traversal cannot fail.
 pub(super) fn check(groups: &[Group<'_>], instances: &[Instance]) -> Result<(), AccelError> {
     let primitives: usize = groups
         .iter()
-        .map(|g| g.triangles.len() + g.quadrics.len())
+        .map(|g| g.triangles.len() + g.quadrics.len() + g.patches.len())
         .sum();
     let count = primitives.max(instances.len());
     if count > MOST {
@@ -105,6 +119,16 @@ pub(super) fn check(groups: &[Group<'_>], instances: &[Instance]) -> Result<(), 
                 return Err(AccelError::VertexOutOfRange {
                     group,
                     triangle,
+                    vertex,
+                    vertices,
+                });
+            }
+        }
+        for (patch, indices) in input.patches.iter().enumerate() {
+            if let Some(&vertex) = indices.iter().find(|&&v| v as usize >= vertices) {
+                return Err(AccelError::PatchVertexOutOfRange {
+                    group,
+                    patch,
                     vertex,
                     vertices,
                 });

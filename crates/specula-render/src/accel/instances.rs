@@ -95,7 +95,7 @@ pub(super) fn build(placed: &[Placement], scene: &mut Scene) -> Option<Tree> {
         &items,
         |_| 0,
         &mut scene.nodes,
-        |leaf| Child::new(ChildKind::Placement, leaf[0] as usize),
+        |leaf| Child::new(ChildKind::PatchOrPlacement, leaf[0] as usize),
     );
     Some(tree)
 }

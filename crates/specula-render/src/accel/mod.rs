@@ -1,4 +1,4 @@
-//! Ray casting: bounding volume hierarchies of 8-wide nodes over triangles, spheres and disks.
+//! Ray casting: bounding volume hierarchies of 8-wide nodes over triangles, quadrics and bilinear patches.
 //!
 //! ```text
 //! Group (object space) --> pairs of triangles --> binary tree (obvhs) --> 8-wide nodes, packets of 8 triangles
@@ -13,7 +13,7 @@
 //!   of threads.
 //! - **Ties.** Of hits with equal `t` the smallest `(instance, primitive)` wins, whatever the order
 //!   of traversal.
-//! - **No leaks.** A ray from inside a closed mesh hits it: `triangle.rs` has the argument.
+//! - **No leaks.** A ray from inside a closed mesh hits it: `triangle.rs` and `patch.rs` have the arguments.
 //! - **A batch is its rays one by one.** Batches in small scenes (`brute_force.rs`) and of incoherent rays in large
 //!   trees (`interleaved.rs`) are computed otherwise, with the same hits bit for bit.
 //! - **It cannot fail.** Rays that are not finite hit nothing; indices are checked at build.
@@ -33,6 +33,7 @@ mod interleaved;
 mod kernel;
 mod moving;
 mod node;
+mod patch;
 mod predicted;
 mod quadric;
 mod traverse;
@@ -79,13 +80,13 @@ pub struct Ray {
 pub struct Hit {
     /// Ray parameter, in `(0, t_max)`.
     pub t: f32,
-    /// Barycentric weight of the triangle's second vertex; 0 for quadrics.
+    /// Barycentric weight of the triangle's second vertex; 0 for quadrics; of patches the coordinate u.
     ///
-    /// The point is `(1 - u - v) p0 + u p1 + v p2`, in the group's space.
+    /// The point of a triangle is `(1 - u - v) p0 + u p1 + v p2`, in the group's space.
     pub u: f32,
-    /// Barycentric weight of the triangle's third vertex; 0 for quadrics.
+    /// Barycentric weight of the triangle's third vertex; 0 for quadrics; of patches the coordinate v.
     pub v: f32,
-    /// Index within the group: its triangles first, then its quadrics, both in input order.
+    /// Index within the group: its triangles first, then its quadrics, then its patches, each in input order.
     pub primitive: u32,
     /// Index of the instance in the list given to [`Accel::build`].
     pub instance: u32,
@@ -107,17 +108,19 @@ pub struct AccelStats {
     pub triangles: usize,
     /// Spheres and disks, over all groups.
     pub quadrics: usize,
+    /// Bilinear patches that can be hit, over all groups.
+    pub patches: usize,
     /// 8-wide nodes, of 256 bytes.
     pub nodes: usize,
     /// Packets of at most 8 triangles, of 320 bytes.
     pub packets: usize,
     /// Levels of 8-wide nodes of the deepest tree.
     pub depth: usize,
-    /// Memory of nodes, packets, quadrics and instances.
+    /// Memory of nodes, packets, quadrics, patches and instances.
     pub bytes: usize,
 }
 
-/// An acceleration structure over instances of groups of triangles and quadrics.
+/// An acceleration structure over instances of groups of triangles, quadrics and bilinear patches.
 ///
 /// # Examples
 ///
@@ -128,7 +131,7 @@ pub struct AccelStats {
 /// let group = Group {
 ///     positions: &[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]],
 ///     triangles: &[[0, 1, 2]],
-///     quadrics: &[],
+///     ..Group::default()
 /// };
 /// let accel = Accel::build(&[group], &[Instance::of(0)])?;
 /// let ray = Ray {
@@ -161,7 +164,7 @@ enum KernelChoice {
 impl Accel {
     /// Builds the trees of the groups (in parallel, in rayon's current pool) and of the instances.
     ///
-    /// Triangles without area or with a vertex that is not finite are left out. Indices of the others stay as they are.
+    /// Triangles and patches without area or with a vertex that is not finite are left out. Indices of the others stay as they are.
     ///
     /// # Errors
     ///
@@ -218,12 +221,14 @@ impl Accel {
             stats: AccelStats {
                 triangles,
                 quadrics: scene.quadrics.len(),
+                patches: scene.patches.len(),
                 nodes: scene.nodes.len(),
                 packets: scene.packets.len(),
                 depth,
                 bytes: size_of_val(scene.nodes.as_slice())
                     + size_of_val(scene.packets.as_slice())
                     + size_of_val(scene.quadrics.as_slice())
+                    + size_of_val(scene.patches.as_slice())
                     + size_of_val(scene.placements.as_slice()),
             },
             scene,

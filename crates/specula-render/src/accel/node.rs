@@ -23,7 +23,8 @@ pub(super) enum ChildKind {
     Node,
     Packet,
     Quadric,
-    Placement,
+    /// A patch in the tree of a group, an instance in that over instances: no tree has both.
+    PatchOrPlacement,
 }
 
 impl Child {
@@ -44,7 +45,7 @@ impl Child {
             0 => ChildKind::Node,
             1 => ChildKind::Packet,
             2 => ChildKind::Quadric,
-            _ => ChildKind::Placement,
+            _ => ChildKind::PatchOrPlacement,
         }
     }
 

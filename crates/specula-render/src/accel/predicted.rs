@@ -3,12 +3,13 @@
 use super::chunks::{CHUNK, Item};
 use super::group::WAVE;
 use super::instances::Placement;
+use super::patch::PreparedPatch;
 use super::quadric::PreparedQuadric;
 
 /// Nodes and packets, per triangle: measured on meshes (74 where packets are full, to 103).
 const TRIANGLE: usize = 104;
-/// A quadric's share of the nodes.
-const NODES_OF_QUADRIC: usize = 48;
+/// The share of the nodes that a quadric, a patch or an instance has.
+const NODES_OF_LEAF: usize = 48;
 /// A box with its index, of each primitive of a group. Pairs of triangles share one: how many there are is not
 /// known beforehand.
 const ITEM: usize = size_of::<Item>();
@@ -26,14 +27,15 @@ pub(crate) struct Predicted {
     pub(crate) building: u64,
 }
 
-/// The trees over groups of so many triangles and quadrics, and over their instances.
-pub(crate) fn predicted(groups: &[(usize, usize)], instances: usize, threads: usize) -> Predicted {
-    let quadric = size_of::<PreparedQuadric>() + NODES_OF_QUADRIC;
+/// The trees over groups of so many triangles, quadrics and patches, and over their instances.
+pub(crate) fn predicted(groups: &[[usize; 3]], instances: usize, threads: usize) -> Predicted {
+    let quadric = size_of::<PreparedQuadric>() + NODES_OF_LEAF;
+    let patch = size_of::<PreparedPatch>() + NODES_OF_LEAF;
     let (mut finished, mut largest) = (0, 0);
     let mut building = Vec::new();
-    for &(triangles, quadrics) in groups {
-        let tree = TRIANGLE * triangles + quadric * quadrics;
-        let items = triangles + quadrics;
+    for &[triangles, quadrics, patches] in groups {
+        let tree = TRIANGLE * triangles + quadric * quadrics + patch * patches;
+        let items = triangles + quadrics + patches;
         finished += tree;
         largest = largest.max(tree);
         // In large groups as many chunks at once as there are threads, of a wave at most.
@@ -49,9 +51,9 @@ pub(crate) fn predicted(groups: &[(usize, usize)], instances: usize, threads: us
     // Groups are built side by side, and then copied into one that grows.
     building.sort_unstable();
     let side_by_side: usize = building.iter().rev().take(threads.max(1)).sum();
-    let several = groups.iter().filter(|g| **g != (0, 0)).count() > 1;
+    let several = groups.iter().filter(|g| **g != [0; 3]).count() > 1;
     let copied = if several { 2 * largest } else { 0 };
-    let placed = instances * (size_of::<Placement>() + NODES_OF_QUADRIC);
+    let placed = instances * (size_of::<Placement>() + NODES_OF_LEAF);
     Predicted {
         finished: (finished + placed) as u64,
         // Lists that grow are copied, and allocators do not give all of it back at once.

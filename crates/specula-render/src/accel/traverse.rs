@@ -4,6 +4,7 @@ use super::frame::{RayFrame, SLACK};
 use super::instances::{self, Placement};
 use super::kernel::{EntryStack, Kernel, PacketHits};
 use super::node::{Child, ChildKind, Lanes, Node8, Packet8};
+use super::patch::PreparedPatch;
 use super::{Hit, Ray, quadric};
 use crate::movement::Movement;
 
@@ -13,6 +14,7 @@ pub(super) struct Scene {
     pub(super) nodes: Vec<Node8>,
     pub(super) packets: Vec<Packet8>,
     pub(super) quadrics: Vec<quadric::PreparedQuadric>,
+    pub(super) patches: Vec<PreparedPatch>,
     pub(super) placements: Vec<Placement>,
     /// How those move that do.
     pub(super) movements: Vec<Movement>,
@@ -218,7 +220,7 @@ pub(super) fn child_of(entry: u64) -> Child {
     Child((entry & 0xffff_ffff) as u32)
 }
 
-/// Triangles and quadrics.
+/// Triangles, quadrics and patches.
 pub(super) struct GroupLeaves<'a> {
     pub(super) scene: &'a Scene,
     pub(super) instance: u32,
@@ -251,7 +253,7 @@ impl Leaves for GroupLeaves<'_> {
                 });
             }
             taken
-        } else {
+        } else if leaf.kind() == ChildKind::Quadric {
             let quadric = &self.scene.quadrics[leaf.index()];
             let t = quadric.t(&frame.ray);
             t > 0.0
@@ -262,6 +264,18 @@ impl Leaves for GroupLeaves<'_> {
                     primitive: quadric.primitive,
                     instance,
                 })
+        } else {
+            let patch = &self.scene.patches[leaf.index()];
+            let Some(hit) = patch.hit(&frame.ray, frame.axes) else {
+                return false;
+            };
+            best.offer(Hit {
+                t: hit.t,
+                u: hit.u,
+                v: hit.v,
+                primitive: patch.primitive,
+                instance,
+            })
         }
     }
 }

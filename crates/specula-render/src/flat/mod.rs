@@ -87,8 +87,9 @@ impl PreparedScene {
         if self.camera.has_lenses() {
             missing.push("camera lenses".to_owned());
         }
-        if self.geometry.has_quadric_parts() {
-            missing.push("parts of quadrics, prepared without `triangulate_quadrics`".to_owned());
+        if self.geometry.has_exact_shapes() {
+            let what = "parts of quadrics or bilinear patches, prepared without `triangulate_exact_shapes`";
+            missing.push(what.to_owned());
         }
         if self.lights.has_portals() {
             missing.push("portals".to_owned());

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use specula_bsdf::Rgb;
 use specula_scene::scene::{
     ColourParam, FloatParam, Geometry as SceneGeometry, Material, MaterialKind, Mesh,
-    ObjectInstance, Scene, Shape,
+    ObjectInstance, PatchMesh, Scene, Shape,
 };
 
 use super::{GroupData, HairShape, NONE, PlacedQuadric, ShapeRecord, parallelogram};
@@ -60,6 +60,7 @@ fn parts(shapes: Vec<Shape>) -> Vec<Part> {
 pub(super) struct Baker<'a> {
     textures: &'a Textures,
     meshes: &'a mut [Mesh],
+    patch_meshes: &'a [PatchMesh],
     /// How many shapes are still to be baked from every mesh.
     uses: Vec<usize>,
     pub(super) world: Vec<Part>,
@@ -78,6 +79,7 @@ impl<'a> Baker<'a> {
         let Scene {
             materials,
             meshes,
+            patch_meshes,
             shapes,
             objects,
             instances,
@@ -93,8 +95,12 @@ impl<'a> Baker<'a> {
                 (!is_interface(material) || material.bounds_absorption())
                     && !matches!(s.alpha, FloatParam::Value(a) if a <= 0.0)
             });
-            // Indices of triangles come first, whatever the order of the shapes.
-            shapes.sort_by_key(|s| !matches!(s.geometry, SceneGeometry::Mesh(_)));
+            // Indices of triangles come first and those of patches last, whatever the order of the shapes.
+            shapes.sort_by_key(|s| match s.geometry {
+                SceneGeometry::Mesh(_) => 0,
+                SceneGeometry::Patches(_) => 2,
+                _ => 1,
+            });
             shapes
         };
         let world = visible(shapes);
@@ -127,6 +133,7 @@ impl<'a> Baker<'a> {
                 .collect(),
             textures,
             meshes,
+            patch_meshes,
             uses,
             world: parts(world),
             objects: objects.into_iter().map(parts).collect(),
@@ -158,13 +165,14 @@ impl<'a> Baker<'a> {
                     group.add_quadric(QuadricShape::Part(part), shape);
                     true
                 }
+                SceneGeometry::Patches(id) => group.add_patches(&self.patch_meshes[id.0], shape),
             };
             let radiance = shape
                 .emission
                 .map_or(BLACK, |e| self.textures.fold_colour(e.radiance));
             let emits = !matches!(radiance, ColourParam::Value(c) if c.is_black());
             let first = group.shape_of.len();
-            let count = group.triangles.len() + group.quadrics.len();
+            let count = group.triangles.len() + group.quadrics.len() + group.patches.len();
             group.shape_of.resize(count, record);
             if emits {
                 group.light_of.resize(first, NONE);
@@ -185,6 +193,7 @@ impl<'a> Baker<'a> {
                 is_interface: self.interfaces[shape.material.0],
                 hair,
                 has_uvs,
+                is_inside_out: mirrors(&shape.to_world) != shape.reverse_orientation,
             });
         }
         group
@@ -195,7 +204,8 @@ impl<'a> Baker<'a> {
             SceneGeometry::Mesh(mesh) => self.meshes[mesh.0].is_fibre,
             SceneGeometry::Sphere { .. }
             | SceneGeometry::Disk { .. }
-            | SceneGeometry::QuadricPart(_) => false,
+            | SceneGeometry::QuadricPart(_)
+            | SceneGeometry::Patches(_) => false,
         };
         self.hair[shape.material.0].then_some(match is_fibre {
             true => HairShape::Fibre,
@@ -250,13 +260,17 @@ impl<'a> Baker<'a> {
 }
 
 impl GroupData {
-    fn add_mesh(&mut self, mesh: &Mesh, shape: &Shape) {
+    /// Adds vertices with their attributes; returns the index of the first.
+    fn add_vertices(
+        &mut self,
+        [positions, normals]: [&[[f32; 3]]; 2],
+        uvs: &[[f32; 2]],
+        shape: &Shape,
+    ) -> u32 {
         let first = id(self.positions.len());
         let m = &shape.to_world;
-        let moved = |p: &[f32; 3]| transform_point(m, *p);
-        extend(&mut self.positions, &mesh.positions, moved);
-        let has_normals = mesh.normals.len() == mesh.positions.len();
-        if has_normals {
+        extend(&mut self.positions, positions, |p| transform_point(m, *p));
+        if normals.len() == positions.len() {
             self.normals.resize(first as usize, [0.0; 3]);
             let sign = if shape.reverse_orientation { -1.0 } else { 1.0 };
             let matrix = normal_matrix(m) * sign;
@@ -264,17 +278,33 @@ impl GroupData {
                 let n = matrix * glam::DVec3::from(n.map(f64::from));
                 narrow3(n.normalize_or_zero()).to_array()
             };
-            extend(&mut self.normals, &mesh.normals, turned);
+            extend(&mut self.normals, normals, turned);
         }
-        if mesh.uvs.len() == mesh.positions.len() {
+        if uvs.len() == positions.len() {
             self.uvs.resize(first as usize, [0.0; 2]);
-            self.uvs.extend(&mesh.uvs);
+            self.uvs.extend(uvs);
         }
+        first
+    }
+
+    /// Adds patches; returns whether they have texture coordinates.
+    fn add_patches(&mut self, mesh: &PatchMesh, shape: &Shape) -> bool {
+        let vertices = [&mesh.positions[..], &mesh.normals[..]];
+        let first = self.add_vertices(vertices, &mesh.uvs, shape);
+        let patches = mesh.patches.iter();
+        self.patches.extend(patches.map(|p| p.map(|v| v + first)));
+        mesh.uvs.len() == mesh.positions.len()
+    }
+
+    fn add_mesh(&mut self, mesh: &Mesh, shape: &Shape) {
+        let m = &shape.to_world;
+        let first = self.add_vertices([&mesh.positions, &mesh.normals], &mesh.uvs, shape);
+        let has_normals = mesh.normals.len() == mesh.positions.len();
         if mesh.second_uvs.len() == mesh.positions.len() {
             self.second_uvs.resize(first as usize, [0.0; 2]);
             self.second_uvs.extend(&mesh.second_uvs);
         }
-        let mirrored = DMat3::from_mat4(*m).determinant() < 0.0;
+        let mirrored = mirrors(m);
         if mesh.tangents.len() == mesh.positions.len() {
             self.tangents.resize(first as usize, [0.0; 4]);
             // Reversed normals and mirroring transforms reverse the cross product.
@@ -340,6 +370,11 @@ fn add_lights(group: &mut GroupData, primitives: Range<usize>, whole: bool) {
             }
         }
     }
+}
+
+/// Whether a transform turns left into right.
+fn mirrors(m: &DMat4) -> bool {
+    DMat3::from_mat4(*m).determinant() < 0.0
 }
 
 fn is_interface(material: &Material) -> bool {

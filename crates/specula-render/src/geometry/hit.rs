@@ -60,7 +60,7 @@ pub(crate) struct PrimitiveLocation {
     pub(crate) instance: u32,
     /// Index within the group.
     pub(crate) primitive: u32,
-    /// Barycentric weights of a triangle's second and third vertex.
+    /// Barycentric weights of a triangle's second and third vertex; the coordinates on a patch.
     pub(crate) weights: [f32; 2],
     /// When it is there, in exposures; for what moves only.
     pub(crate) time: f32,
@@ -117,7 +117,7 @@ impl Geometry {
         self.surface_at(&at, || ray.origin + ray.direction * hit.t)
     }
 
-    /// The triangle at a hit; `None` for quadrics, and in instances with a transform.
+    /// The triangle at a hit; `None` for other shapes, and in instances with a transform.
     #[inline(always)]
     pub(crate) fn facet(&self, hit: &Hit) -> Option<Facet<'_>> {
         let placement = &self.placements[hit.instance as usize];
@@ -143,7 +143,7 @@ impl Geometry {
         group.tangent_of_triangle(&at, self.shapes[shape as usize].has_uvs)
     }
 
-    /// Texture coordinates and colour at a hit of a triangle; `None` for quadrics.
+    /// Texture coordinates and colour at a hit of a triangle; `None` for other shapes.
     #[inline]
     pub(crate) fn coordinates(&self, hit: &Hit) -> Option<Coordinates> {
         let group = self.group_of(hit);
@@ -155,13 +155,14 @@ impl Geometry {
         Some(group.coordinates(&at, self.shapes[shape as usize].has_uvs))
     }
 
-    /// The quadric of a hit; `None` for triangles, and in instances with a transform.
+    /// The quadric of a hit; `None` for other shapes, and in instances with a transform.
     #[inline(always)]
     pub(crate) fn quadric(&self, hit: &Hit) -> Option<QuadricId> {
         let placement = &self.placements[hit.instance as usize];
         let group = &self.groups[placement.group as usize];
         let quadric = (hit.primitive as usize).checked_sub(group.triangles.len())?;
-        placement.identity.then_some(QuadricId {
+        let is_quadric = placement.identity && quadric < group.quadrics.len();
+        is_quadric.then_some(QuadricId {
             group: placement.group,
             quadric: id(quadric),
         })
@@ -199,10 +200,12 @@ impl Geometry {
         let mut surface = if primitive < triangles {
             let has_uvs = self.shapes[shape as usize].has_uvs;
             group.triangle_surface(at, has_uvs)
-        } else {
+        } else if let Some(quadric) = group.quadrics.get(primitive - triangles) {
             let near = near();
             let near = pose.map_or(near, |pose| pose.to_group_point(near));
-            group.quadrics[primitive - triangles].surface(near)
+            quadric.surface(near)
+        } else {
+            group.patch_surface(at, &self.shapes[shape as usize])
         };
         surface.shape = shape;
         surface.at = *at;

@@ -30,12 +30,14 @@ impl Geometry {
         let (normal, partials) = if (at.primitive as usize) < triangles {
             let has_uvs = self.shapes[surface.shape as usize].has_uvs;
             group.triangle_partials(at, has_uvs)
-        } else {
+        } else if let Some(quadric) = group.quadrics.get(at.primitive as usize - triangles) {
             let near = match placement.identity {
                 true => surface.position,
                 false => pose.to_group_point(surface.position),
             };
-            group.quadrics[at.primitive as usize - triangles].partials(near)
+            quadric.partials(near)
+        } else {
+            group.patch_partials(at, &self.shapes[surface.shape as usize])
         };
         if placement.identity {
             return partials;

@@ -12,9 +12,9 @@ use crate::scene::{
     EnvironmentMapping, Film, Filter, FloatParam, Geometry, GltfMaterial, HairMaterial,
     HairPigment, ImageId, ImageProjection, Interpolation, LensInterface, LensSystem, Light,
     Material, MaterialId, MaterialKind, MeasuredId, Mesh, MeshId, MicrofacetDistribution, Motion,
-    NoiseKind, Object, ObjectId, ObjectInstance, PrincipledMaterial, Profile, Projection,
-    QuadricPart, Roughness, RoughnessMapping, Shape, SpotFalloff, StopPicture, Texture, TextureId,
-    TextureMapping, UvMapping, Wrap,
+    NoiseKind, Object, ObjectId, ObjectInstance, PatchMesh, PatchMeshId, PrincipledMaterial,
+    Profile, Projection, QuadricPart, Roughness, RoughnessMapping, Shape, SpotFalloff, StopPicture,
+    Texture, TextureId, TextureMapping, UvMapping, Wrap,
 };
 
 /// A part of a scene.
@@ -160,6 +160,7 @@ fields!(TextureId { 0 });
 fields!(MaterialId { 0 });
 fields!(MeasuredId { 0 });
 fields!(MeshId { 0 });
+fields!(PatchMeshId { 0 });
 fields!(ObjectId { 0 });
 
 fields!(Camera {
@@ -212,7 +213,19 @@ fields!(Mesh {
     triangles;
     is_fibre
 });
-variants!(Geometry { 0 => Mesh(id), 1 => Sphere { radius }, 2 => Disk { radius, height }, 3 => QuadricPart(part) });
+fields!(PatchMesh {
+    positions,
+    normals,
+    uvs,
+    patches
+});
+variants!(Geometry {
+    0 => Mesh(id),
+    1 => Sphere { radius },
+    2 => Disk { radius, height },
+    3 => QuadricPart(part),
+    4 => Patches(id),
+});
 variants!(QuadricPart {
     0 => Sphere { radius, z, phi_max },
     1 => Cylinder { radius, z, phi_max },

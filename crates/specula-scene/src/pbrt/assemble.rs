@@ -7,7 +7,7 @@ use specula_bsdf::Rgb;
 
 use super::context::{Context, Entity};
 use super::directive::{InstanceEntity, MaterialEntity, Reader};
-use super::geometry::{self, ShapeGeometry};
+use super::geometry::{self, Meshes, ShapeGeometry};
 use super::medium::{self, Sides};
 use super::motion::Exposure;
 use super::shape::{self, ShapeEntity};
@@ -21,7 +21,7 @@ use crate::pressed::{Press, Pressed};
 use crate::problems::{NoteKind, is_dark};
 use crate::scene::{
     Bump, ColourParam, Emission, FloatParam, Geometry, Light, Material, MaterialId, MaterialKind,
-    Mesh, Object, ObjectId, ObjectInstance, Scene, Shape, TextureId,
+    MeshId, Object, ObjectId, ObjectInstance, Scene, Shape, TextureId,
 };
 use crate::transform::is_invertible;
 use crate::{Format, Loaded};
@@ -59,12 +59,11 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
     let is_hair = |shape: &ShapeEntity| materials.is_hair(&shape.material);
     let (geometries, mut meshes) = geometry::read(&mut context, &all, is_hair)?;
     let lights = read_lights(&mut context, &reader.lights)?;
-    let press = Press::new(context.files.limits());
     let mut builder = Builder {
+        press: Press::new(context.files.limits()),
         context,
         materials: &mut materials,
         meshes: &mut meshes,
-        press,
         exposure,
     };
     let mut geometries = geometries.into_iter();
@@ -95,7 +94,8 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         textures: std::mem::take(&mut context.textures),
         materials: materials.list,
         measured: std::mem::take(&mut context.measured),
-        meshes,
+        meshes: meshes.triangles,
+        patch_meshes: meshes.patches,
         shapes,
         objects,
         instances,
@@ -394,7 +394,7 @@ impl Materials {
 struct Builder<'a> {
     context: Context,
     materials: &'a mut Materials,
-    meshes: &'a mut Vec<Mesh>,
+    meshes: &'a mut Meshes,
     press: Press,
     exposure: Exposure,
 }
@@ -445,7 +445,9 @@ impl Builder<'_> {
             shape.to_world,
             shape.end,
         );
-        let reach = bounds::of_geometry(self.meshes, &geometry).placed(&to_world, motion.as_ref());
+        let Meshes { triangles, patches } = &*self.meshes;
+        let reach = bounds::of_geometry(triangles, patches, &geometry);
+        let reach = reach.placed(&to_world, motion.as_ref());
         if reach.farthest() > FARTHEST {
             let message = format!("the shape reaches beyond {FARTHEST:e} from the origin");
             return Err(SceneError::new(ErrorKind::Limit, place, message));
@@ -480,7 +482,7 @@ impl Builder<'_> {
     }
 
     fn is_fibre(&self, geometry: &Geometry) -> bool {
-        matches!(geometry, Geometry::Mesh(id) if self.meshes[id.0].is_fibre)
+        matches!(geometry, Geometry::Mesh(id) if self.meshes.triangles[id.0].is_fibre)
     }
 
     /// A shape under a transform that cannot be inverted, if area is left of it.
@@ -490,7 +492,8 @@ impl Builder<'_> {
         to_world: &DMat4,
         place: &Place,
     ) -> Result<Option<Shape>, SceneError> {
-        let pressed = self.press.shape(shape, to_world, self.meshes);
+        let Meshes { triangles, patches } = &mut *self.meshes;
+        let pressed = self.press.shape(shape, to_world, triangles, patches);
         let pressed = pressed.map_err(|m| SceneError::new(ErrorKind::Limit, place, m))?;
         self.context.warn(place, pressed.message());
         Ok(match pressed {
@@ -530,9 +533,11 @@ impl Builder<'_> {
         read: &ShapeGeometry,
         geometry: &Geometry,
     ) -> Result<Option<Emission>, SceneError> {
-        let area = self.area(geometry, shape);
+        let area = self.area(geometry, shape)?;
+        let triangles = |id: MeshId| self.meshes.triangles[id.0].triangles.len();
         let pieces = match *geometry {
-            Geometry::Mesh(id) => read.pieces.unwrap_or(self.meshes[id.0].triangles.len()),
+            Geometry::Mesh(id) => read.pieces.unwrap_or_else(|| triangles(id)),
+            Geometry::Patches(id) => self.meshes.patches[id.0].patches.len(),
             Geometry::Sphere { .. } | Geometry::Disk { .. } | Geometry::QuadricPart(_) => 1,
         };
         let read = light::area(&mut self.context, entity, area, pieces).map(Some);
@@ -542,14 +547,23 @@ impl Builder<'_> {
         Ok(emission)
     }
 
-    /// Area of a shape; quadrics before their transform, as pbrt-v4 takes it.
-    fn area(&self, geometry: &Geometry, shape: &ShapeEntity) -> f64 {
+    /// Area of a shape that emits; quadrics before their transform, as pbrt-v4 takes it.
+    fn area(&self, geometry: &Geometry, shape: &ShapeEntity) -> Result<f64, SceneError> {
         use std::f64::consts::PI;
-        match *geometry {
-            Geometry::Mesh(id) => mesh::area(&self.meshes[id.0], &shape.to_world),
+        Ok(match *geometry {
+            Geometry::Mesh(id) => mesh::area(&self.meshes.triangles[id.0], &shape.to_world),
+            Geometry::Patches(id) => {
+                // Those that emit become triangles.
+                let patches = &self.meshes.patches[id.0];
+                let limits = self.context.files.limits();
+                let place = &shape.entity.place;
+                let too_many = |m: String| SceneError::new(ErrorKind::Mesh, place, m);
+                shape::bounded((), patches.triangle_count(), limits).map_err(too_many)?;
+                mesh::area(&patches.mesh(), &shape.to_world)
+            }
             Geometry::Sphere { radius } => 4.0 * PI * f64::from(radius).powi(2),
             Geometry::Disk { radius, .. } => PI * f64::from(radius).powi(2),
             Geometry::QuadricPart(part) => part.area(),
-        }
+        })
     }
 }

@@ -82,7 +82,7 @@ pub(crate) const FEATURES: &[Feature] = &[
     near(
         "shape",
         "bilinearmesh",
-        "triangles within 1e-3 of a patch's diagonal; exact for parallelograms",
+        "exact; those that emit and those on the GPU: triangles within 1e-3 of a patch's diagonal, two for a parallelogram",
     ),
     full("shape", "loopsubdiv"),
     near(

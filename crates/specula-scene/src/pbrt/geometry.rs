@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use super::context::Context;
-use super::shape::{Prepared, Recipe, ShapeEntity, prepare};
+use super::shape::{Built, Prepared, Recipe, ShapeEntity, prepare};
 use crate::error::{ErrorKind, Place, SceneError};
 use crate::faults::Fault;
 use crate::image::Image;
-use crate::mesh::{self, Cleaning};
+use crate::mesh::Cleaning;
 use crate::ply;
 use crate::read_file::Files;
-use crate::scene::{Geometry, Mesh, MeshId};
+use crate::scene::{Geometry, Mesh, MeshId, PatchMesh, PatchMeshId};
 
 /// Geometry of a shape, with what its light needs to know.
 #[derive(Clone, Copy)]
@@ -89,6 +89,28 @@ impl Jobs {
     }
 }
 
+/// The meshes of a scene.
+#[derive(Default)]
+pub(super) struct Meshes {
+    pub(super) triangles: Vec<Mesh>,
+    pub(super) patches: Vec<PatchMesh>,
+}
+
+impl Meshes {
+    fn add(&mut self, made: Built) -> Geometry {
+        match made {
+            Built::Mesh(mesh) => {
+                self.triangles.push(mesh);
+                Geometry::Mesh(MeshId(self.triangles.len() - 1))
+            }
+            Built::Patches(mesh) => {
+                self.patches.push(mesh);
+                Geometry::Patches(PatchMeshId(self.patches.len() - 1))
+            }
+        }
+    }
+}
+
 /// Reads and checks all meshes and all pictures that the context was asked for.
 ///
 /// * `is_hair`: whether a shape's material is hair.
@@ -96,7 +118,7 @@ pub(super) fn read(
     context: &mut Context,
     shapes: &[&ShapeEntity],
     is_hair: impl Fn(&ShapeEntity) -> bool,
-) -> Result<(Vec<ShapeGeometry>, Vec<Mesh>), SceneError> {
+) -> Result<(Vec<ShapeGeometry>, Meshes), SceneError> {
     let mut jobs = Jobs::default();
     let mut slots = Vec::with_capacity(shapes.len());
     let mut left = context.files.limits().max_subdivided;
@@ -157,10 +179,10 @@ pub(super) fn read(
         let image = context.problems.or(image, Image::stand_in)?;
         context.images.push(image);
     }
-    let mut meshes = Vec::new();
+    let mut meshes = Meshes::default();
     let mut ids = Vec::new();
     for (result, (place, path)) in results.into_iter().zip(&places) {
-        let (mesh, cleaning) = match result {
+        let (made, cleaning) = match result {
             Ok(made) => made,
             Err(faults) => {
                 for fault in faults {
@@ -171,11 +193,8 @@ pub(super) fn read(
                 continue;
             }
         };
-        report(context, place, &cleaning, mesh.triangles.is_empty());
-        ids.push((!mesh.triangles.is_empty()).then_some(Geometry::Mesh(MeshId(meshes.len()))));
-        if !mesh.triangles.is_empty() {
-            meshes.push(mesh);
-        }
+        report(context, place, &cleaning, made.is_empty());
+        ids.push((!made.is_empty()).then(|| meshes.add(made)));
     }
     Ok((geometries(slots, &ids), meshes))
 }
@@ -206,26 +225,30 @@ fn broken(context: &Context, place: &Place, path: Option<&Path>, fault: &Fault) 
 }
 
 /// * `collects`: whether to go on after a mistake, as in a check.
-fn make(source: MeshSource, files: &Files, collects: bool) -> Result<(Mesh, Cleaning), Vec<Fault>> {
-    let mut mesh = match source {
-        MeshSource::Mesh(mesh) => mesh,
+fn make(
+    source: MeshSource,
+    files: &Files,
+    collects: bool,
+) -> Result<(Built, Cleaning), Vec<Fault>> {
+    let made = match source {
+        MeshSource::Mesh(mesh) => Built::Mesh(mesh),
         MeshSource::Recipe(recipe) => recipe.build(files.limits()).map_err(|m| vec![m.into()])?,
         MeshSource::File(path) => {
             let mut mesh = ply::read(&path, files, collects)?;
             // pbrt-v4 ignores colours of vertices.
             mesh.colours = Vec::new();
-            mesh
+            Built::Mesh(mesh)
         }
     };
-    let cleaning = mesh::clean_or_name(&mut mesh, collects)?;
-    Ok((mesh, cleaning))
+    made.clean(collects)
 }
 
 fn report(context: &mut Context, place: &Place, cleaning: &Cleaning, empty: bool) {
     if empty {
-        let message = match cleaning.dropped_triangles {
-            0 => "the mesh has no triangles: it is left out".to_owned(),
-            n => format!("all {n} triangles of the mesh have no area: it is left out"),
+        let message = match (cleaning.dropped_triangles, cleaning.dropped_patches) {
+            (0, 0) => "the mesh has no triangles: it is left out".to_owned(),
+            (0, n) => format!("all {n} patches of the mesh have no area: it is left out"),
+            (n, _) => format!("all {n} triangles of the mesh have no area: it is left out"),
         };
         context.warn(place, message);
         return;

@@ -19,8 +19,10 @@ use super::medium::Sides;
 use super::state::MaterialUse;
 use crate::Limits;
 use crate::error::{ErrorKind, SceneError};
+use crate::faults::Fault;
+use crate::mesh::{self, Cleaning};
 use crate::num::shorten;
-use crate::scene::{FloatParam, Geometry, Mesh};
+use crate::scene::{FloatParam, Geometry, Mesh, PatchMesh};
 
 /// A shape with its graphics state.
 pub(super) struct ShapeEntity {
@@ -45,7 +47,7 @@ pub(super) enum Prepared {
 /// A mesh that is still to be made: this may take a while, and is done in parallel.
 pub(super) enum Recipe {
     Curve(curve::Curve),
-    Patches(patch::Patches),
+    Patches(PatchMesh),
     Revolved(revolved::Revolved),
     Subdivision(subdivision::Control),
 }
@@ -58,14 +60,16 @@ impl Recipe {
         }
     }
 
-    /// The mesh.
-    pub(super) fn build(self, limits: &Limits) -> Result<Mesh, String> {
-        match self {
-            Self::Curve(curve) => curve.build(limits),
-            Self::Patches(patches) => patches.build(limits),
-            Self::Revolved(revolved) => Ok(revolved.build()),
-            Self::Subdivision(control) => control.build(limits),
-        }
+    /// The mesh; patches that are parallelograms, as triangles.
+    pub(super) fn build(self, limits: &Limits) -> Result<Built, String> {
+        let mesh = match self {
+            Self::Curve(curve) => curve.build(limits)?,
+            Self::Patches(patches) if patches.is_flat() => patches.mesh(),
+            Self::Patches(patches) => return Ok(Built::Patches(patches)),
+            Self::Revolved(revolved) => revolved.build(),
+            Self::Subdivision(control) => control.build(limits)?,
+        };
+        Ok(Built::Mesh(mesh))
     }
 
     /// Takes what it is subdivided into from the scene's budget.
@@ -80,17 +84,47 @@ impl Recipe {
     pub(super) fn pieces(&self) -> Option<usize> {
         match self {
             Self::Revolved(_) => Some(1),
-            Self::Patches(patches) => Some(patches.len()),
+            Self::Patches(mesh) => Some(mesh.patches.len()),
             Self::Curve(curve) => Some(curve.pieces()),
             Self::Subdivision(_) => None,
         }
     }
 }
 
+/// What a recipe makes.
+pub(super) enum Built {
+    Mesh(Mesh),
+    Patches(PatchMesh),
+}
+
+impl Built {
+    /// [`mesh::clean_or_name`] of it.
+    pub(super) fn clean(self, collects: bool) -> Result<(Self, Cleaning), Vec<Fault>> {
+        match self {
+            Self::Mesh(mut mesh) => {
+                let cleaning = mesh::clean_or_name(&mut mesh, collects)?;
+                Ok((Self::Mesh(mesh), cleaning))
+            }
+            Self::Patches(patches) => {
+                let (patches, cleaning) = patch::clean(patches, collects)?;
+                Ok((Self::Patches(patches), cleaning))
+            }
+        }
+    }
+
+    /// Whether nothing is left of it.
+    pub(super) fn is_empty(&self) -> bool {
+        match self {
+            Self::Mesh(mesh) => mesh.triangles.is_empty(),
+            Self::Patches(mesh) => mesh.patches.is_empty(),
+        }
+    }
+}
+
 /// `value` holds where `size` may not exceed the limit of meshes.
-fn bounded<T>(value: T, size: usize, limits: &Limits) -> Result<T, String> {
+pub(super) fn bounded<T>(value: T, size: u64, limits: &Limits) -> Result<T, String> {
     let most = limits.max_vertices;
-    if size as u64 <= most {
+    if size <= most {
         return Ok(value);
     }
     Err(format!(

@@ -5,7 +5,7 @@ use glam::DMat4;
 use super::motion::Motion;
 use super::quadric_part::QuadricPart;
 use super::texture::{ColourParam, FloatParam};
-use super::{MaterialId, MeshId, ObjectId};
+use super::{MaterialId, MeshId, ObjectId, PatchMeshId};
 
 /// A triangle mesh. Optional attributes are empty or one per vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -49,6 +49,8 @@ pub enum Geometry {
     },
     /// A part of a sphere or of a disk, or a cylinder.
     QuadricPart(QuadricPart),
+    /// Bilinear patches.
+    Patches(PatchMeshId),
 }
 
 /// Emission of a shape.

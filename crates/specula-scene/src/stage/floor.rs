@@ -7,7 +7,7 @@ use specula_bsdf::Rgb;
 use crate::bounds::{self, BoundingBox, FARTHEST};
 use crate::num::f32_of;
 use crate::scene::{
-    ColourParam, FloatParam, Geometry, Material, MaterialId, MaterialKind, Mesh, Scene, Shape,
+    ColourParam, FloatParam, Geometry, Material, MaterialId, MaterialKind, Scene, Shape,
 };
 
 /// Albedo of the floor: neutral, and darker than most objects.
@@ -67,7 +67,8 @@ fn unused_name(materials: &[Material]) -> String {
 /// reach below them.
 fn lowest(scene: &Scene) -> Option<f64> {
     let mut placed: Vec<(f64, Geometry, DMat4)> = Vec::new();
-    let of = |shape: &Shape| bounds::of_geometry(&scene.meshes, &shape.geometry);
+    let of =
+        |shape: &Shape| bounds::of_geometry(&scene.meshes, &scene.patch_meshes, &shape.geometry);
     for shape in &scene.shapes {
         let low = of(shape).transformed(&shape.to_world).min.y;
         placed.push((low, shape.geometry, shape.to_world));
@@ -89,18 +90,18 @@ fn lowest(scene: &Scene) -> Option<f64> {
         if *low >= lowest {
             break;
         }
-        lowest = lowest.min(lowest_of(&scene.meshes, geometry, to_world));
+        lowest = lowest.min(lowest_of(scene, geometry, to_world));
     }
     lowest.is_finite().then_some(lowest)
 }
 
 /// The least y of a geometry in the world.
-fn lowest_of(meshes: &[Mesh], geometry: &Geometry, to_world: &DMat4) -> f64 {
+fn lowest_of(scene: &Scene, geometry: &Geometry, to_world: &DMat4) -> f64 {
     let row = to_world.row(1);
+    let height = |p: [f32; 3]| row.dot(Vec3::from(p).as_dvec3().extend(1.0));
     match *geometry {
         Geometry::Mesh(id) => {
-            let mesh = &meshes[id.0];
-            let height = |p: [f32; 3]| row.dot(Vec3::from(p).as_dvec3().extend(1.0));
+            let mesh = &scene.meshes[id.0];
             let of_triangle = |triangle: &[u32; 3]| {
                 let heights = triangle.map(|i| height(mesh.positions[i as usize]));
                 heights.into_iter().fold(f64::INFINITY, f64::min)
@@ -115,5 +116,12 @@ fn lowest_of(meshes: &[Mesh], geometry: &Geometry, to_world: &DMat4) -> f64 {
             centre - f64::from(radius) * row.x.hypot(row.y)
         }
         Geometry::QuadricPart(part) => row.w + part.least_along(row.truncate()),
+        // At corners.
+        Geometry::Patches(id) => {
+            let mesh = &scene.patch_meshes[id.0];
+            let corners = mesh.patches.iter().flatten();
+            let heights = corners.map(|&i| height(mesh.positions[i as usize]));
+            heights.fold(f64::INFINITY, f64::min)
+        }
     }
 }

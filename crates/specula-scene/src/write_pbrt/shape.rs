@@ -5,7 +5,9 @@ use std::collections::HashMap;
 use specula_bsdf::Rgb;
 
 use super::{WriteError, Writer, quoted, rgb_list};
-use crate::scene::{Channel, Emission, FloatParam, Geometry, Mesh, MeshId, QuadricPart, Shape};
+use crate::scene::{
+    Channel, Emission, FloatParam, Geometry, Mesh, MeshId, PatchMesh, QuadricPart, Shape,
+};
 
 /// Most triangles, and vertices, of a mesh within a text alone.
 const MOST_INLINE: usize = 20_000;
@@ -57,6 +59,7 @@ impl Writer<'_> {
                 format!("\"disk\" \"float radius\" [ {radius} ] \"float height\" [ {height} ]")
             }
             Geometry::QuadricPart(part) => quadric_part(&part),
+            Geometry::Patches(id) => patches(&self.scene.patch_meshes[id.0]),
         };
         if shape.alpha != FloatParam::Value(1.0) {
             kind += &self.float_param("alpha", shape.alpha)?;
@@ -142,16 +145,30 @@ fn quadric_part(part: &QuadricPart) -> String {
 
 /// A mesh as a shape of the text.
 fn inline(mesh: &Mesh) -> String {
-    fn list<T: ToString>(name: &str, numbers: impl Iterator<Item = T>) -> String {
-        let numbers: Vec<String> = numbers.map(|n| n.to_string()).collect();
-        match numbers.is_empty() {
-            true => String::new(),
-            false => format!(" \"{name}\" [ {} ]", numbers.join(" ")),
-        }
-    }
     let indices = list("integer indices", mesh.triangles.iter().flatten());
-    let points = list("point3 P", mesh.positions.iter().flatten());
-    let normals = list("normal N", mesh.normals.iter().flatten());
-    let uvs = list("point2 uv", mesh.uvs.iter().flatten());
-    format!("\"trianglemesh\"{indices}{points}{normals}{uvs}")
+    let vertices = vertices([&mesh.positions, &mesh.normals], &mesh.uvs);
+    format!("\"trianglemesh\"{indices}{vertices}")
+}
+
+/// Patches as a shape of the text, in which they always are: files of meshes have none.
+fn patches(mesh: &PatchMesh) -> String {
+    let indices = list("integer indices", mesh.patches.iter().flatten());
+    let vertices = vertices([&mesh.positions, &mesh.normals], &mesh.uvs);
+    format!("\"bilinearmesh\"{indices}{vertices}")
+}
+
+fn vertices([positions, normals]: [&[[f32; 3]]; 2], uvs: &[[f32; 2]]) -> String {
+    let points = list("point3 P", positions.iter().flatten());
+    let normals = list("normal N", normals.iter().flatten());
+    let uvs = list("point2 uv", uvs.iter().flatten());
+    format!("{points}{normals}{uvs}")
+}
+
+/// A parameter of numbers; nothing where there are none.
+fn list<T: ToString>(name: &str, numbers: impl Iterator<Item = T>) -> String {
+    let numbers: Vec<String> = numbers.map(|n| n.to_string()).collect();
+    match numbers.is_empty() {
+        true => String::new(),
+        false => format!(" \"{name}\" [ {} ]", numbers.join(" ")),
+    }
 }

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 use specula_scene::scene::{
-    Channel, ColourParam, EnvironmentMapping, Filter, Geometry, Light, QuadricPart, Texture,
-    TextureMapping, UvMapping, Wrap,
+    Channel, ColourParam, EnvironmentMapping, Filter, Geometry, Light, MeshId, PatchMeshId,
+    QuadricPart, Texture, TextureMapping, UvMapping, Wrap,
 };
-use specula_scene::{Loaded, Summary};
+use specula_scene::{LoadOptions, Loaded, Summary};
 
 use super::common::{Folder, load, load_world, warnings};
 
@@ -353,7 +353,87 @@ fn parts_of_quadrics_are_read_exactly_and_written_again() {
     let again: Vec<Geometry> = again.shapes.iter().map(|s| s.geometry).collect();
     assert_eq!(again, expected);
     let mut triangles = loaded.scene;
-    triangles.triangulate_quadric_parts(|_| true);
+    triangles.triangulate_exact_shapes(|_| true);
     assert_eq!((triangles.meshes.len(), triangles.shapes.len()), (3, 4));
     assert!(triangles.validate().is_ok());
+}
+
+#[test]
+fn curved_patches_are_read_exactly_and_written_again() {
+    let loaded = load(
+        "WorldBegin
+         Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0.5 2 0 0 2 1 0 2 2 0]
+           \"integer indices\" [0 1 2 3 1 4 3 5 4 4 4 4] \"point2 uv\" [0 0 1 0 0 1 1 1 2 0 2 1 3 3]
+         Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] \"normal N\" [0 0 1 0 0 1 0 0 1 0 0 1]
+         AreaLightSource \"diffuse\" \"float power\" 3
+         Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 1 0 1 1 1 1 0]",
+    )
+    .unwrap();
+    let messages = warnings(&loaded);
+    assert_eq!(messages, ["1 patches without area are dropped"]);
+    let scene = &loaded.scene;
+    assert!(scene.validate().is_ok());
+    let found: Vec<Geometry> = scene.shapes.iter().map(|s| s.geometry).collect();
+    let expected = [
+        Geometry::Patches(PatchMeshId(0)),
+        // A parallelogram.
+        Geometry::Mesh(MeshId(0)),
+        Geometry::Patches(PatchMeshId(1)),
+    ];
+    assert_eq!(found, expected);
+    assert_eq!(scene.patch_meshes[0].patches, [[0, 1, 2, 3], [1, 4, 3, 5]]);
+    // Over the area of the saddle, 1.280789, and pi.
+    let Some(emission) = scene.shapes[2].emission else {
+        panic!()
+    };
+    let ColourParam::Value(radiance) = emission.radiance else {
+        panic!()
+    };
+    assert!((radiance.g - 3.0 / (1.280_789 * core::f32::consts::PI)).abs() < 2e-3);
+    let bounds = Summary::of(scene).bounds;
+    assert_eq!(bounds.max, DVec3::new(2.0, 1.0, 1.0));
+    let path = std::path::Path::new("patches.pbrt");
+    let (text, _) = specula_scene::write_pbrt::pbrt_text(scene, path).unwrap();
+    let again = load(&text).unwrap().scene;
+    assert_eq!(again.patch_meshes, scene.patch_meshes);
+    let geometries: Vec<Geometry> = again.shapes.iter().map(|s| s.geometry).collect();
+    assert_eq!(geometries, expected);
+    let mut bent = scene.clone();
+    bent.patch_meshes[1].positions[3][2] = 0.25;
+    assert_ne!(bent.fingerprint(), scene.fingerprint());
+    bent.patch_meshes[1].patches[0][3] = 4;
+    let fault = bent.validate().unwrap_err().to_string();
+    assert!(fault.contains("patch mesh 1: a patch refers"), "{fault}");
+    let mut triangles = scene.clone();
+    triangles.triangulate_exact_shapes(|s| s.emission.is_some());
+    assert_eq!((triangles.meshes.len(), triangles.shapes.len()), (2, 3));
+    triangles.triangulate_exact_shapes(|_| true);
+    assert_eq!((triangles.meshes.len(), triangles.shapes.len()), (3, 3));
+    assert!(triangles.validate().is_ok());
+}
+
+#[test]
+fn patches_that_are_pressed_flat_are_triangles_and_lamps_have_limits() {
+    let saddle = "\"bilinearmesh\" \"point3 P\" [0 0 0 1 0 1 0 1 1 1 1 0]";
+    let flat = load(format!("WorldBegin Scale 1 1 0 Shape {saddle}")).unwrap();
+    let [Geometry::Mesh(id)] = flat
+        .scene
+        .shapes
+        .iter()
+        .map(|s| s.geometry)
+        .collect::<Vec<_>>()[..]
+    else {
+        panic!("{:?}", flat.scene.shapes);
+    };
+    let mesh = &flat.scene.meshes[id.0];
+    assert!(mesh.triangles.len() > 16 && mesh.positions.iter().all(|p| p[2] == 0.0));
+    let mut options = LoadOptions::default();
+    options.limits.max_vertices = 30;
+    let read = |light: &str| {
+        let text = format!("WorldBegin {light} Shape {saddle}");
+        specula_scene::load_bytes(std::path::Path::new("a.pbrt"), text.into_bytes(), &options)
+    };
+    assert!(read("").is_ok());
+    let error = read("AreaLightSource \"diffuse\"").unwrap_err().to_string();
+    assert!(error.contains("max_vertices"), "{error}");
 }

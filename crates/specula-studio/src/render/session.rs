@@ -245,7 +245,7 @@ fn options(scene: &Scene, changes: &Changes) -> RenderOptions {
         resolution: Some([width, height]),
         crop: Some([0, width, 0, height]),
         // Pages render the same arrays by WebGPU.
-        triangulate_quadrics: true,
+        triangulate_exact_shapes: true,
         ..asked
     }
 }

@@ -121,7 +121,7 @@ impl Context<'_> {
             ..
         } = loaded;
         let mut options = options(arguments, &scene)?;
-        options.triangulate_quadrics = !self.gpus.is_empty();
+        options.triangulate_exact_shapes = !self.gpus.is_empty();
         let most = arguments.machine.max_memory;
         memory::check(&scene, &options, self.threads, most, arguments.quiet)?;
         let inputs = Inputs::new(files);

@@ -96,7 +96,7 @@ impl Mesh {
         Group {
             positions: &self.positions,
             triangles: &self.triangles,
-            quadrics: &[],
+            ..Group::default()
         }
     }
 

@@ -97,16 +97,18 @@ fn batches_are_rays_one_by_one() {
     let mut random = Random(20);
     let mut hits = 0;
     // On both sides of what is small.
-    for (triangles, spheres) in [
-        (0, 0),
-        (0, 1),
-        (1, 0),
-        (9, 3),
-        (40, 0),
-        (12, 9),
-        (60, 1),
-        (90, 20),
-        (3000, 40),
+    for (triangles, spheres, patches) in [
+        (0, 0, 0),
+        (0, 1, 0),
+        (1, 0, 0),
+        (0, 0, 1),
+        (0, 0, 7),
+        (9, 3, 2),
+        (40, 0, 0),
+        (12, 9, 0),
+        (60, 1, 0),
+        (90, 20, 20),
+        (3000, 40, 300),
     ] {
         let mut mesh = Mesh::soup(triangles, &mut random);
         // Each once more, and one of no area, which keeps its place.
@@ -115,8 +117,10 @@ fn batches_are_rays_one_by_one() {
             mesh.triangles.extend_from_within(..);
         }
         let quadrics = quadrics(spheres, &mut random);
+        let patches = patches::soup(patches, &mut mesh.positions, &mut random);
         let group = Group {
             quadrics: &quadrics,
+            patches: &patches,
             ..mesh.group()
         };
         let accel = Accel::build(&[group], &[Instance::of(0)]).unwrap();

@@ -39,7 +39,7 @@ fn chunks_answer_as_one_tree_does() {
     let group = |triangles| Group {
         positions: &positions,
         triangles,
-        quadrics: &[],
+        ..Group::default()
     };
     let build = |threads| {
         let pool = rayon::ThreadPoolBuilder::new()

@@ -5,6 +5,7 @@ mod degenerate;
 mod instances;
 mod large;
 mod moving;
+mod patches;
 mod quadric_parts;
 mod quadrics;
 mod reference;
@@ -114,7 +115,7 @@ impl Mesh {
         Group {
             positions: &self.positions,
             triangles: &self.triangles,
-            quadrics: &[],
+            ..Group::default()
         }
     }
 

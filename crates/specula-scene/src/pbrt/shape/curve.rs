@@ -172,7 +172,8 @@ impl Curve {
             CurveForm::Ribbon(_) => 1,
         };
         let steps: usize = self.segments.iter().map(|s| self.steps(s) as usize).sum();
-        bounded((), 2 * sides * (steps + self.segments.len()), limits)?;
+        let size = 2 * sides * (steps + self.segments.len());
+        bounded((), size as u64, limits)?;
         let stations = self.stations();
         let mut mesh = Mesh::default();
         match &self.look {

@@ -66,7 +66,7 @@ impl Control {
         // Faces that use a vertex twice have no area, and no neighbours to speak of.
         faces.retain(|[a, b, c]| a != b && b != c && c != a);
         let size = faces.len().saturating_mul(1 << (2 * levels));
-        bounded((), size, limits)?;
+        bounded((), size as u64, limits)?;
         for _ in 0..levels {
             (points, faces) = refine(&points, &faces);
         }
