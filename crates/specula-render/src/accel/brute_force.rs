@@ -466,17 +466,16 @@ impl Pack {
                 direction: Vec3::from(at(&self.direction, lane)),
                 t_max: self.t[lane],
             };
-            let Some(hit) = patch.hit(&ray, axes).filter(|hit| hit.t < self.t[lane]) else {
-                continue;
-            };
+            let hit = patch.hit(&ray, axes);
+            let closer = (hit.t > 0.0) & (hit.t < self.t[lane]);
             if ANY {
-                self.end(lane, true);
-                continue;
+                self.end(lane, closer);
+            } else if closer {
+                self.t[lane] = hit.t;
+                self.u[lane] = hit.u;
+                self.v[lane] = hit.v;
+                self.place[lane] = place;
             }
-            self.t[lane] = hit.t;
-            self.u[lane] = hit.u;
-            self.v[lane] = hit.v;
-            self.place[lane] = place;
         }
     }
 

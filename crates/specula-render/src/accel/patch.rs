@@ -43,11 +43,20 @@ pub(super) struct PreparedPatch {
 /// Where a ray hits a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PatchHit {
-    /// Above 0.
+    /// Not above 0 where it misses.
     pub(super) t: f32,
     /// In `[0, 1]`, as `v`.
     pub(super) u: f32,
     pub(super) v: f32,
+}
+
+impl PatchHit {
+    /// A miss.
+    const NONE: Self = Self {
+        t: f32::NAN,
+        u: 0.0,
+        v: 0.0,
+    };
 }
 
 /// The box of a patch that can be hit; `None` where it has no area or is not finite.
@@ -67,8 +76,11 @@ impl PreparedPatch {
     /// The first hit of a ray.
     ///
     /// * `axes`: of the ray's direction, the greatest last.
+    ///
+    /// Cold, so that the traversal keeps its registers for triangles.
+    #[cold]
     #[inline(never)]
-    pub(super) fn hit(&self, ray: &Ray, axes: [u8; 3]) -> Option<PatchHit> {
+    pub(super) fn hit(&self, ray: &Ray, axes: [u8; 3]) -> PatchHit {
         let permuted = |p: [f32; 3]| axes.map(|axis| f64::from(p[usize::from(axis)]));
         let (o, d) = (
             permuted(ray.origin.to_array()),
@@ -92,13 +104,13 @@ impl PreparedPatch {
 /// The first hit above z = 0 on the axis z.
 ///
 /// * `scale`: `t` over z.
-fn first_hit([p00, p10, p01, p11]: [[f64; 3]; 4], scale: f64) -> Option<PatchHit> {
-    let mut first: Option<PatchHit> = None;
+fn first_hit([p00, p10, p01, p11]: [[f64; 3]; 4], scale: f64) -> PatchHit {
+    let mut first = PatchHit::NONE;
     let mut offer = |uv: [f64; 2], z: f64| {
         let t = f32::of(z * scale);
-        if t > 0.0 && first.is_none_or(|hit| t < hit.t) {
+        if t > 0.0 && (t < first.t || first.t.is_nan()) {
             let [u, v] = uv.map(f32::of);
-            first = Some(PatchHit { t, u, v });
+            first = PatchHit { t, u, v };
         }
     };
     let diagonals = [minus(p11, p00), minus(p10, p01)];

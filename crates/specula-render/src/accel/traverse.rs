@@ -266,16 +266,15 @@ impl Leaves for GroupLeaves<'_> {
                 })
         } else {
             let patch = &self.scene.patches[leaf.index()];
-            let Some(hit) = patch.hit(&frame.ray, frame.axes) else {
-                return false;
-            };
-            best.offer(Hit {
-                t: hit.t,
-                u: hit.u,
-                v: hit.v,
-                primitive: patch.primitive,
-                instance,
-            })
+            let hit = patch.hit(&frame.ray, frame.axes);
+            hit.t > 0.0
+                && best.offer(Hit {
+                    t: hit.t,
+                    u: hit.u,
+                    v: hit.v,
+                    primitive: patch.primitive,
+                    instance,
+                })
         }
     }
 }
