@@ -37,6 +37,7 @@ SCENES = [
     # Our own, of `data`.
     ("features/motion", 160, 120, 1024, 1024),
     ("features/flat", 160, 120, 512, 512),
+    ("features/exact-shapes", 192, 128, 2048, 2048),
     ("features/hair", 160, 120, 512, 512),
 ]
 RUNS = 4
