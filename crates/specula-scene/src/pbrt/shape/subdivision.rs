@@ -107,7 +107,7 @@ fn refine(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
     };
     let faces = faces.par_iter().enumerate();
-    let faces = faces.flat_map_iter(|face| quarters(face)).collect();
+    let faces = faces.flat_map_iter(quarters).collect();
     (fine, faces)
 }
 
