@@ -7,7 +7,7 @@ use std::process::{Child, ChildStderr, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
-use crate::common::{send, small_scene, specula};
+use crate::common::{heeding_signals, send, small_scene, specula};
 use specula::render::FilmFile;
 use specula::render::picture::{Picture, read_exr};
 
@@ -38,7 +38,7 @@ struct Render {
 
 impl Render {
     fn start(folder: &Path, scene: &Path, arguments: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_specula"))
+        let mut child = heeding_signals()
             .current_dir(folder)
             .args(["render", "--threads", "1", "-o", "a.exr"])
             .args(arguments)
@@ -66,8 +66,7 @@ impl Render {
         }
     }
 
-    /// Its end. After a minute it is killed: a signal that the tests were started to ignore, by `nohup` for example, it
-    /// ignores as well.
+    /// Its end. After a minute it is killed.
     fn end(mut self) -> (ExitStatus, String) {
         let start = Instant::now();
         let id = self.child.id();

@@ -5,7 +5,7 @@ use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use crate::common::{names, run, send, small_scene, succeed};
+use crate::common::{heeding_signals, names, run, send, small_scene, succeed};
 
 /// A studio that was started.
 struct Studio {
@@ -24,7 +24,7 @@ impl Drop for Studio {
 impl Studio {
     /// Waits for the line with the address.
     fn start(folder: &Path, arguments: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_specula"))
+        let mut child = heeding_signals()
             .current_dir(folder)
             .env("TMPDIR", folder)
             .args(["studio", "--no-open", "--threads", "1"])

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Child, ChildStderr, Command, Stdio};
 use std::time::Duration;
 
-use crate::common::{SMALL, run, send, small_scene, specula, stderr};
+use crate::common::{SMALL, heeding_signals, run, send, small_scene, specula, stderr};
 use specula::render::picture::read_exr;
 
 /// A render that watches its scene, and what it has said so far.
@@ -16,7 +16,7 @@ struct Watched {
 
 impl Watched {
     fn start(folder: &Path, arguments: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_specula"))
+        let mut child = heeding_signals()
             .current_dir(folder)
             .args(["render", "small.pbrt", "--watch", "-o", "a.exr"])
             .args(arguments)

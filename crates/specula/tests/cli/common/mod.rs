@@ -69,6 +69,18 @@ pub(crate) fn names(folder: &Path) -> Vec<String> {
     names
 }
 
+/// The program, which heeds signals though the tests may have been started to ignore them: by `nohup`, or in the
+/// background of a script.
+pub(crate) fn heeding_signals() -> std::process::Command {
+    let program = env!("CARGO_BIN_EXE_specula");
+    if !cfg!(target_os = "linux") {
+        return std::process::Command::new(program);
+    }
+    let mut command = std::process::Command::new("env");
+    command.args(["--default-signal=INT,HUP,TERM", program]);
+    command
+}
+
 /// Sends a signal, such as `INT`, to a process.
 #[cfg(unix)]
 pub(crate) fn send(signal: &str, process: u32) {
