@@ -258,10 +258,10 @@ fn answers_follow_from_figures(found: &serde_json::Value) {
 mod interrupted {
     use super::*;
     use std::io::{BufRead, BufReader};
-    use std::process::{Child, Command, Stdio};
+    use std::process::{Child, Stdio};
 
     fn start(folder: &Path, arguments: &[&str]) -> Child {
-        Command::new(env!("CARGO_BIN_EXE_specula"))
+        crate::common::heeding_signals()
             .current_dir(folder)
             .arg("lab")
             .args(arguments)
@@ -272,12 +272,7 @@ mod interrupted {
     }
 
     fn interrupt(child: &Child) {
-        let id = child.id().to_string();
-        let sent = Command::new("kill")
-            .args(["-INT", &id])
-            .status()
-            .expect("the program runs");
-        assert!(sent.success());
+        crate::common::send("INT", child.id());
     }
 
     /// What was finished is kept, and there is a page about it.
