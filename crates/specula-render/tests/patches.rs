@@ -276,19 +276,7 @@ fn gallery(moves: bool) -> Scene {
         roughness: FloatParam::Value(0.0),
     };
     let checked = material(&mut scene, checked);
-    let brushed = MaterialKind::Conductor {
-        fresnel: ConductorFresnel::Index {
-            eta: grey(0.2),
-            k: grey(3.0),
-        },
-        roughness: Roughness {
-            u: FloatParam::Value(0.4),
-            v: FloatParam::Value(0.05),
-            ..alpha(0.1)
-        },
-        tint: ColourParam::WHITE,
-    };
-    let brushed = material(&mut scene, brushed);
+    let brushed = material(&mut scene, brushed());
     let mut closed = pillow();
     closed.uvs = (closed.positions.iter())
         .map(|p| [p[0] + 0.3 * p[2], p[1] - 0.2 * p[2]])

@@ -94,19 +94,7 @@ fn gallery(moves: bool) -> Scene {
         roughness: FloatParam::Value(0.0),
     };
     let checked = material(&mut scene, checked);
-    let brushed = MaterialKind::Conductor {
-        fresnel: ConductorFresnel::Index {
-            eta: grey(0.2),
-            k: grey(3.0),
-        },
-        roughness: Roughness {
-            u: FloatParam::Value(0.4),
-            v: FloatParam::Value(0.05),
-            ..alpha(0.1)
-        },
-        tint: ColourParam::WHITE,
-    };
-    let brushed = material(&mut scene, brushed);
+    let brushed = material(&mut scene, brushed());
     let mut object = Object::default();
     for (i, (_, part)) in (0..).zip(parts()) {
         let at = |x: f64, z: f64| {

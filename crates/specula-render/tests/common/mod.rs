@@ -76,6 +76,22 @@ pub(crate) fn mirror_metal(a: f32) -> MaterialKind {
     }
 }
 
+/// Grey metal with grooves.
+pub(crate) fn brushed() -> MaterialKind {
+    MaterialKind::Conductor {
+        fresnel: ConductorFresnel::Index {
+            eta: grey(0.2),
+            k: grey(3.0),
+        },
+        roughness: Roughness {
+            u: FloatParam::Value(0.4),
+            v: FloatParam::Value(0.05),
+            ..alpha(0.1)
+        },
+        tint: ColourParam::WHITE,
+    }
+}
+
 pub(crate) fn glass(a: f32) -> MaterialKind {
     MaterialKind::Dielectric {
         eta: 1.5,
