@@ -71,8 +71,8 @@ fn a_gpu_is_measured() {
         assert!(text.contains(expected), "no '{expected}' in {text}");
     }
     assert!(!text.contains("Not measured"), "{text}");
-    // Of the part scenes, on real GPUs.
-    assert!(!folder.join("cache").exists());
+    // Of the part scenes, on real GPUs. Drivers have caches there, too.
+    assert!(!folder.join("cache/specula").exists());
 }
 
 #[test]
