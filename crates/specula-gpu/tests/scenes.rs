@@ -5,12 +5,15 @@
 #![allow(clippy::print_stdout, reason = "a suite says how much it checked")]
 
 mod common;
+#[path = "common/few.rs"]
+mod few;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use common::gpu;
-use specula_gpu::{AdapterKind, Gpu, Tracer, missing};
+use few::some;
+use specula_gpu::{Gpu, Tracer, missing};
 use specula_render::picture::Picture;
 use specula_render::{PreparedScene, RenderOptions, Renderer};
 
@@ -67,13 +70,6 @@ fn compare(gpu: &Gpu, file: &Path) -> Option<[f64; 2]> {
     Some(found)
 }
 
-/// Those that are rendered: half of them where software compiles a shader for each, but for `SPECULA_GPU_PICTURES=all`.
-fn some<const N: usize>(gpu: &Gpu, names: [&'static str; N]) -> impl Iterator<Item = &'static str> {
-    let all = std::env::var("SPECULA_GPU_PICTURES").is_ok_and(|v| v == "all");
-    let all = all || gpu.adapter.kind != AdapterKind::Software;
-    names.into_iter().take(if all { N } else { N / 2 })
-}
-
 /// * `most`: share of the pixels that may differ: paths that graze take another way by rounding.
 fn check(gpu: &Gpu, file: &Path, most: f64) {
     let Some([differing, quotient]) = compare(gpu, file) else {
@@ -89,7 +85,7 @@ fn scenes_of_the_comparison() {
     let Some(gpu) = gpu("scenes of the comparison") else {
         return;
     };
-    for name in some(gpu, ["glass-and-metal", "metal-room"]) {
+    for name in some(["glass-and-metal", "metal-room"], 1) {
         check(gpu, &root().join(format!("data/versus/{name}.xml")), 0.02);
     }
 }
@@ -105,7 +101,7 @@ fn real_scenes() {
         "cornell-box/cornell-box-environment-map.pbrt",
         "gltf/boombox.glb",
     ];
-    for name in some(gpu, names) {
+    for name in some(names, 2) {
         check(gpu, &specula_testing::scene(name), 0.02);
     }
 }

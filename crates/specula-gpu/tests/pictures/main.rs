@@ -10,6 +10,8 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/few.rs"]
+mod few;
 mod measured;
 mod normal_maps;
 #[path = "../common/queries.rs"]
@@ -19,6 +21,7 @@ mod textures;
 use std::sync::atomic::AtomicBool;
 
 use common::gpu;
+use few::{renders_all, some};
 use offered::gpu_with_queries;
 use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
@@ -66,19 +69,6 @@ type Device<'a> = (&'a Gpu, Rays);
 /// What software renders by ray queries too: it compiles such a shader for half a minute. All with
 /// `SPECULA_RAY_QUERIES=all`.
 const ON_SOFTWARE: [&str; 1] = ["lights, instances"];
-
-/// Whether a software GPU renders a second picture of the same materials, whose shader takes it up to a minute to
-/// compile: with `SPECULA_GPU_PICTURES=all`.
-fn renders_all() -> bool {
-    let all = std::env::var("SPECULA_GPU_PICTURES").is_ok_and(|v| v == "all");
-    all || gpu("all pictures").is_some_and(|gpu| gpu.adapter.kind != AdapterKind::Software)
-}
-
-/// Of variants of a material, those that are rendered: the first alone where not all are.
-fn some<T, const N: usize>(variants: [T; N]) -> impl Iterator<Item = T> {
-    let count = if renders_all() { N } else { 1 };
-    variants.into_iter().take(count)
-}
 
 /// The GPU through the tree, and by ray queries where it offers them.
 fn devices(what: &str) -> Vec<Device<'static>> {
@@ -267,7 +257,7 @@ fn samplers_and_strategies() {
         (vndf::Sampler::Heitz, Strategy::Balance),
         (vndf::Sampler::Bounded, Strategy::Mis),
     ];
-    for (vndf_sampler, strategy) in some(each) {
+    for (vndf_sampler, strategy) in some(each, 1) {
         let name = format!("{vndf_sampler:?}, {strategy:?}");
         check(&name, &scene, |o| RenderOptions {
             vndf_sampler,
@@ -313,7 +303,7 @@ fn renders_with_bias() {
 fn metals_by_every_treatment_of_energy() {
     let [narrow, wide] = [NARROW, WIDE].map(metal);
     let scene = scene(&format!("{ROOM}{SKY}{}", orbs([&narrow, &wide])));
-    for energy in some(["kulla-conty", "multibounce"]) {
+    for energy in some(["kulla-conty", "multibounce"], 1) {
         check(&format!("metal, {energy}"), &scene, |o| RenderOptions {
             energy: energy.parse().unwrap(),
             ..o
@@ -326,7 +316,7 @@ fn glass_by_every_treatment_of_energy() {
     let smooth = "Material \"dielectric\" \"float eta\" 1.5";
     let rough = "Material \"dielectric\" \"float eta\" 1.5 \"float roughness\" 0.3";
     let scene = scene(&format!("{ROOM}{SKY}{}", orbs([smooth, rough])));
-    for energy in some(["multibounce", "turquin"]) {
+    for energy in some(["multibounce", "turquin"], 1) {
         check(&format!("glass, {energy}"), &scene, |o| RenderOptions {
             energy: energy.parse().unwrap(),
             ..o

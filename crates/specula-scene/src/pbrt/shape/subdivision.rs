@@ -96,12 +96,8 @@ fn refine(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let edges = Edges::of(faces);
     // The limit of vertices fits 32 bits.
     let first = u32::try_from(fine.len()).unwrap_or(u32::MAX);
-    fine.par_extend(
-        edges
-            .sides
-            .par_iter()
-            .map(|side| side.middle(points, faces)),
-    );
+    let middles = edges.all.par_iter();
+    fine.par_extend(middles.map(|edge| edge.middle(points, faces)));
     let quarters = |(i, &[a, b, c]): (usize, &[u32; 3])| {
         let [ab, bc, ca] = [0, 1, 2].map(|k| first + edges.of_side[3 * i + k]);
         [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
@@ -119,6 +115,7 @@ fn side(faces: &[[u32; 3]], side: u32) -> ([u32; 2], u32) {
 }
 
 /// An edge, by the sides of faces that lie on it.
+#[derive(Clone, Default)]
 struct Edge {
     first: u32,
     /// The only other one.
@@ -144,7 +141,7 @@ impl Edge {
 /// The edges of a mesh.
 struct Edges {
     /// In the order in which faces meet them.
-    sides: Vec<Edge>,
+    all: Vec<Edge>,
     /// The edge of every side.
     of_side: Vec<u32>,
 }
@@ -169,26 +166,21 @@ impl Edges {
         for place in &mut of_side {
             met += std::mem::replace(place, met);
         }
-        let mut sides: Vec<Edge> = Vec::new();
-        sides.resize_with(met as usize, || Edge {
-            first: 0,
-            second: None,
-        });
+        let mut all = vec![Edge::default(); met as usize];
         for group in of_one() {
             let edge = of_side[group[0].1 as usize];
-            sides[edge as usize] = Edge {
+            all[edge as usize] = Edge {
                 first: group[0].1,
-                second: if let [_, second] = group {
-                    Some(second.1)
-                } else {
-                    None
+                second: match group {
+                    [_, second] => Some(second.1),
+                    _ => None,
                 },
             };
             for &(_, side) in group {
                 of_side[side as usize] = edge;
             }
         }
-        Self { sides, of_side }
+        Self { all, of_side }
     }
 }
 
