@@ -21,6 +21,52 @@ use super::{
     triangle,
 };
 
+/// Steps of a ray that is marched.
+const STEPS: u32 = 4000;
+
+/// Where a function of the way along a ray is first 0 within bounds, from 0 to `end`, by steps and bisection; `Err`: too
+/// near an edge or a silhouette to tell.
+///
+/// * `near`: a value from which the function may turn around, without a crossing that the steps see.
+/// * `margin`: how far within the bounds a place is, negative outside; `least`: the margin that tells.
+fn marched(
+    end: f64,
+    (at, near): (impl Fn(f64) -> f64, f64),
+    (margin, least): (impl Fn(f64) -> f64, f64),
+) -> Result<Option<f64>, ()> {
+    let step = end / f64::from(STEPS);
+    let (mut before, mut slope) = (at(0.0), 0.0_f64);
+    for i in 1..=STEPS {
+        let to = f64::from(i) * step;
+        let after = at(to);
+        let rise = after - before;
+        if slope * rise < 0.0 && after.abs().min(before.abs()) < near {
+            return Err(());
+        }
+        slope = rise;
+        if before * after <= 0.0 {
+            let [mut low, mut high] = [to - step, to];
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if at(middle) * before > 0.0 {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            let within = margin(low);
+            if within.abs() < least {
+                return Err(());
+            }
+            if within > 0.0 {
+                return Ok(Some(low));
+            }
+        }
+        before = after;
+    }
+    Ok(None)
+}
+
 /// SplitMix64.
 struct Random(u64);
 

@@ -4,8 +4,6 @@ use glam::{DMat4, DVec3};
 
 use super::*;
 
-const STEPS: u32 = 4000;
-
 fn wide(v: Vec3<f32>) -> DVec3 {
     DVec3::from_array(v.to_array().map(f64::from))
 }
@@ -41,47 +39,27 @@ fn weights([a, b, c, d]: [DVec3; 4], p: DVec3) -> [f64; 4] {
     [1.0 - wb - wc - wd, wb, wc, wd]
 }
 
-/// The first crossing of the patch's quadric `w00 w11 = w10 w01` within the patch, with u and v, by steps and
-/// bisection; `Err`: too near an edge or a silhouette to tell.
-fn marched(corners: [DVec3; 4], o: DVec3, d: DVec3) -> Result<Option<[f64; 3]>, ()> {
+/// The first crossing of the patch's quadric `w00 w11 = w10 w01` within the patch, with u and v; `Err`: too near an edge
+/// or a silhouette to tell.
+fn marched_to_patch(corners: [DVec3; 4], o: DVec3, d: DVec3) -> Result<Option<[f64; 3]>, ()> {
     let at = |t: f64| weights(corners, o + d * t);
     let implicit = |t: f64| {
         let [a, b, c, d] = at(t);
         a * d - b * c
     };
-    let step = 6.0 / (d.length() * f64::from(STEPS));
-    let (mut before, mut slope) = (implicit(0.0), 0.0_f64);
-    for i in 1..=STEPS {
-        let to = f64::from(i) * step;
-        let after = implicit(to);
-        let rise = after - before;
-        if slope * rise < 0.0 && after.abs().min(before.abs()) < 1e-3 {
-            return Err(());
-        }
-        slope = rise;
-        if before * after <= 0.0 {
-            let [mut low, mut high] = [to - step, to];
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if implicit(middle) * before > 0.0 {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-            let [_, b, c, d] = at(low);
-            let (u, v) = (b + d, c + d);
-            let within = u.min(1.0 - u).min(v).min(1.0 - v);
-            if within.abs() < 1e-4 {
-                return Err(());
-            }
-            if within > 0.0 {
-                return Ok(Some([low, u, v]));
-            }
-        }
-        before = after;
-    }
-    Ok(None)
+    let coordinates = |t: f64| {
+        let [_, b, c, d] = at(t);
+        [b + d, c + d]
+    };
+    let margin = |t: f64| {
+        let [u, v] = coordinates(t);
+        u.min(1.0 - u).min(v).min(1.0 - v)
+    };
+    let first = marched(6.0 / d.length(), (implicit, 1e-3), (margin, 1e-4))?;
+    Ok(first.map(|t| {
+        let [u, v] = coordinates(t);
+        [t, u, v]
+    }))
 }
 
 #[test]
@@ -106,7 +84,7 @@ fn hits_are_where_marched_rays_cross() {
             let hit = accel.intersect(&ray);
             assert_eq!(accel.occluded(&ray), hit.is_some());
             let (o, d) = (wide(ray.origin), wide(ray.direction));
-            let Ok(expected) = marched(corners, o, d) else {
+            let Ok(expected) = marched_to_patch(corners, o, d) else {
                 continue;
             };
             match (expected, hit) {

@@ -7,8 +7,6 @@ use specula_scene::scene::QuadricPart;
 
 use super::*;
 
-const STEPS: u32 = 4000;
-
 fn wide(v: Vec3<f32>) -> DVec3 {
     DVec3::from_array(v.to_array().map(f64::from))
 }
@@ -104,42 +102,11 @@ fn margin(part: &QuadricPart, p: DVec3) -> f64 {
     within.min(if inside { edge } else { -edge })
 }
 
-/// The first crossing that is on the part, by steps and bisection; `Err`: too near an edge or a silhouette to tell.
-fn marched(part: &QuadricPart, o: DVec3, d: DVec3) -> Result<Option<f64>, ()> {
-    let t_end = 14.0 / d.length();
+/// The first crossing that is on the part; `Err`: too near an edge or a silhouette to tell.
+fn marched_to_part(part: &QuadricPart, o: DVec3, d: DVec3) -> Result<Option<f64>, ()> {
     let at = |t: f64| implicit(part, o + d * t);
-    let step = t_end / f64::from(STEPS);
-    let (mut before, mut slope) = (at(0.0), 0.0_f64);
-    for i in 1..=STEPS {
-        let to = f64::from(i) * step;
-        let after = at(to);
-        let rise = after - before;
-        // It turns around near zero.
-        if slope * rise < 0.0 && after.abs().min(before.abs()) < 1e-4 {
-            return Err(());
-        }
-        slope = rise;
-        if before * after <= 0.0 {
-            let [mut low, mut high] = [to - step, to];
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if at(middle) * before > 0.0 {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-            let within = margin(part, o + d * low);
-            if within.abs() < 1e-5 {
-                return Err(());
-            }
-            if within > 0.0 {
-                return Ok(Some(low));
-            }
-        }
-        before = after;
-    }
-    Ok(None)
+    let margin = |t: f64| margin(part, o + d * t);
+    marched(14.0 / d.length(), (at, 1e-4), (margin, 1e-5))
 }
 
 #[test]
@@ -161,7 +128,7 @@ fn hits_are_where_marched_rays_cross() {
             assert_eq!(accel.occluded(&ray), hit.is_some());
             let (o, d) = (wide(ray.origin), wide(ray.direction));
             let (o, d) = (own.transform_point3(o), own.transform_vector3(d));
-            let Ok(expected) = marched(&part, o, d) else {
+            let Ok(expected) = marched_to_part(&part, o, d) else {
                 continue;
             };
             match (expected, hit) {
