@@ -5,11 +5,12 @@
 //! `(p1 - p0) x (p2 - p0)` points to its outside. The outside is pbrt's: the winding's side,
 //! flipped by `ReverseOrientation`, travelling with the shape under mirroring transforms; where the
 //! mesh has vertex normals, the side that they point to. Of bilinear patches it is that of `dp/du x dp/dv`, by the same
-//! rules. Spheres and disks follow them, too
-//! (outwards, and +z). pbrt itself turns the hits, though not the light samples, of mirrored
-//! spheres and disks inside out; Specula does not.
+//! rules. Spheres and disks follow them, too (outwards, and +z). Curves have theirs towards the ray, ribbons towards
+//! their normals, unless they are reversed. pbrt itself turns the hits, though not the light samples, of mirrored spheres and
+//! disks inside out; Specula does not.
 
 mod bake;
+mod curves;
 mod flat;
 mod footprint;
 mod hit;
@@ -23,12 +24,13 @@ use specula_bsdf::Vec3;
 use specula_bsdf::math::vec3;
 use specula_scene::scene::{ColourParam, FloatParam, ObjectInstance, Scene};
 
-use crate::accel::{Accel, AccelError, Group, Hit, Instance, Quadric, QuadricShape};
+use crate::accel::{Accel, AccelError, CurveSegment, Group, Hit, Instance, Quadric, QuadricShape};
 use crate::convert::{Affine, id, narrow3, normal_matrix, widen3};
 use crate::movement::Movement;
 use crate::texture::Textures;
 use bake::{Baker, Part};
 
+pub(crate) use bake::has_own_space;
 pub(crate) use hit::{Coordinates, PrimitiveLocation, QuadricId, QuadricPoint, Surface};
 pub(crate) use partials::Partials;
 
@@ -53,7 +55,8 @@ pub(crate) struct ShapeRecord {
     /// What it is of, where its material is hair, or a mix with hair in it.
     pub(crate) hair: Option<HairShape>,
     has_uvs: bool,
-    /// Whether the outside of its patches, where they have no normals, is opposite to `dp/du x dp/dv`.
+    /// Whether the outside of its patches, where they have no normals, is opposite to `dp/du x dp/dv`; that of curves,
+    /// whether they are reversed.
     is_inside_out: bool,
 }
 
@@ -94,7 +97,7 @@ pub(crate) struct PlacedQuadric {
     pub(crate) flipped: bool,
 }
 
-/// Triangles, quadrics and bilinear patches in one space. Primitives are numbered in this order.
+/// Triangles, quadrics, bilinear patches and segments of curves in one space. Primitives are numbered in this order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GroupData {
     pub(crate) positions: Vec<[f32; 3]>,
@@ -112,6 +115,7 @@ pub(crate) struct GroupData {
     pub(crate) quadrics: Vec<PlacedQuadric>,
     /// Vertices `p00`, `p10`, `p01` and `p11` of each.
     pub(crate) patches: Vec<[u32; 4]>,
+    pub(crate) curves: Vec<CurveSegment>,
     /// Shape of every primitive.
     pub(crate) shape_of: Vec<u32>,
     /// Index of every primitive among the group's lights, or [`NONE`]; ends with the last light.
@@ -126,6 +130,9 @@ pub(crate) const BYTES_PER_QUADRIC: u64 =
 
 /// Memory of a patch in its group, without its vertices.
 pub(crate) const BYTES_PER_PATCH: u64 = (size_of::<[u32; 4]>() + 4) as u64;
+
+/// Memory of a segment of a curve in its group.
+pub(crate) const BYTES_PER_SEGMENT: u64 = (size_of::<CurveSegment>() + 4) as u64;
 
 /// Memory of an instance, with its share of the tree over instances.
 pub(crate) const BYTES_PER_INSTANCE: u64 =
@@ -178,11 +185,7 @@ impl Geometry {
         let mut groups = Vec::new();
         let mut placements = Vec::new();
         for part in std::mem::take(&mut baker.world) {
-            placements.push(Placement::new(
-                id(groups.len()),
-                DMat4::IDENTITY,
-                part.movement,
-            ));
+            placements.push(Placement::new(id(groups.len()), part.movement));
             groups.push(baker.bake(part.shapes));
         }
         let mut groups_of = vec![None; baker.objects.len()];
@@ -202,7 +205,7 @@ impl Geometry {
             });
             for (group, movement) in own {
                 let movement = movement.clone().within(to_world, motion.as_ref());
-                placements.push(Placement::new(*group, to_world, movement));
+                placements.push(Placement::new(*group, movement));
             }
         }
         let shapes = baker.records;
@@ -239,6 +242,7 @@ impl Geometry {
                 a.positions == b.positions
                     && a.triangles == b.triangles
                     && a.patches == b.patches
+                    && a.curves == b.curves
                     && (a.quadrics.iter().map(PlacedQuadric::in_tree))
                         .eq(b.quadrics.iter().map(PlacedQuadric::in_tree))
             })
@@ -251,10 +255,11 @@ impl Geometry {
         &self.groups[placement.group as usize]
     }
 
-    /// Whether there are parts of quadrics or bilinear patches, which shaders have not.
+    /// Whether there are parts of quadrics, bilinear patches or curves, which shaders have not.
     pub(crate) fn has_exact_shapes(&self) -> bool {
         let is_part = |q: &PlacedQuadric| matches!(q.shape, QuadricShape::Part(_));
-        (self.groups.iter()).any(|g| !g.patches.is_empty() || g.quadrics.iter().any(is_part))
+        let has_other = |g: &GroupData| !(g.patches.is_empty() && g.curves.is_empty());
+        (self.groups.iter()).any(|g| has_other(g) || g.quadrics.iter().any(is_part))
     }
 
     /// Whether all shapes, in the world and in the space of their group, are near enough for rays.
@@ -264,6 +269,7 @@ impl Geometry {
         world.is_none_or(|b| near(&b.min) && near(&b.max))
             && self.groups.iter().all(|g| {
                 g.positions.par_iter().with_min_len(1 << 14).all(near)
+                    && g.curves.iter().all(|c| c.controls.iter().all(near))
                     && g.quadrics.iter().all(|q| q.reach() <= f64::from(FARTHEST))
             })
     }
@@ -282,6 +288,7 @@ fn build_accel(groups: &[GroupData], placements: &[Placement]) -> Result<Accel, 
             triangles: &g.triangles,
             quadrics,
             patches: &g.patches,
+            curves: &g.curves,
         })
         .collect();
     let instances: Vec<Instance> = placements
@@ -333,10 +340,9 @@ impl PlacedQuadric {
 }
 
 impl Placement {
-    /// * `to_world`: of the group, if it stands still, else part of `movement`.
-    fn new(group: u32, to_world: DMat4, movement: Movement) -> Self {
+    fn new(group: u32, movement: Movement) -> Self {
+        let transform = movement.at(0.0);
         let movement = movement.moves().then(|| Box::new(movement));
-        let transform = movement.as_ref().map_or(to_world, |m| m.at(0.0));
         Self {
             group,
             transform,
@@ -404,7 +410,7 @@ pub(crate) fn normal_of(e1: Vec3<f32>, e2: Vec3<f32>) -> Vec3<f32> {
 mod tests {
     use super::*;
 
-    /// A bumpy sheet with its own normals and texture coordinates beside a sphere, as an instance that moves.
+    /// A bumpy sheet with its own normals and texture coordinates beside a sphere and a curve, as a moving instance.
     fn moving_scene() -> Scene {
         use specula_scene::scene::*;
         let film = Film::new([8; 2], Filter::Box { radius: [0.5; 2] });
@@ -441,6 +447,12 @@ mod tests {
             ..Mesh::default()
         };
         scene.meshes.push(mesh);
+        let arc = [-1.5, -0.5, 0.5, 1.5].map(|x: f32| [x, x * x - 1.0, x]);
+        scene.curve_meshes.push(CurveMesh {
+            segments: vec![arc],
+            width_at_ends: vec![[0.3, 0.5]],
+            ..CurveMesh::default()
+        });
         let sphere = Geometry::Sphere { radius: 0.7 };
         let beside = DMat4::from_translation(glam::DVec3::new(0.0, 0.0, 2.0));
         scene.objects.push(Object {
@@ -448,6 +460,7 @@ mod tests {
             shapes: vec![
                 Shape::new(Geometry::Mesh(MeshId(0)), DMat4::IDENTITY, MaterialId(0)),
                 Shape::new(sphere, beside, MaterialId(0)),
+                Shape::new(Geometry::Curves(CurveMeshId(0)), beside, MaterialId(0)),
             ],
         });
         let start = DMat4::from_scale(glam::DVec3::new(1.0, -1.0, 0.5));
@@ -470,7 +483,7 @@ mod tests {
         };
         let moving = geometry(moving_scene());
         let mut random = specula_bsdf::math::Stream::new(5);
-        let (mut sheet, mut sphere) = (0, 0);
+        let (mut sheet, mut sphere, mut curve) = (0, 0, 0);
         for time in [0.0, 0.3, 0.5, 0.9, 1.0] {
             let mut scene = moving_scene();
             let instance = &mut scene.instances[0];
@@ -492,13 +505,21 @@ mod tests {
                 assert_eq!(format!("{surface:?}"), format!("{expected:?}"));
                 let partials = [&moving, &still].map(|g| format!("{:?}", g.partials(&surface)));
                 assert_eq!(partials[0], partials[1]);
-                match moving.groups[1].triangles.get(hit.primitive as usize) {
-                    Some(_) => sheet += 1,
-                    None => sphere += 1,
+                let group = &moving.groups[1];
+                match (
+                    group.triangles.get(hit.primitive as usize),
+                    group.curve_at(hit.primitive),
+                ) {
+                    (Some(_), _) => sheet += 1,
+                    (None, None) => sphere += 1,
+                    (None, Some(_)) => curve += 1,
                 }
             }
         }
-        assert!(sheet > 200 && sphere > 50, "{sheet} {sphere}");
+        assert!(
+            sheet > 200 && sphere > 30 && curve > 20,
+            "{sheet} {sphere} {curve}"
+        );
     }
 
     #[test]

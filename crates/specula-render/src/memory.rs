@@ -7,10 +7,13 @@
 //! ([`MemoryEstimate::after_reading`]).
 
 use specula_scene::Scene;
-use specula_scene::scene::{Geometry, Light, Mesh, ObjectInstance, PatchMesh, Shape, Texture};
+use specula_scene::scene::{
+    CurveMesh, Geometry, Light, Mesh, ObjectInstance, PatchMesh, Shape, Texture,
+};
 
 use crate::accel::predicted;
 use crate::film::BYTES_PER_PIXEL;
+use crate::geometry::has_own_space;
 use crate::light::{BYTES_PER_EMITTER, BYTES_PER_FAR_PIXEL};
 use crate::options::RenderOptions;
 use crate::picture::{ALL_CHANNELS, blocks_size};
@@ -64,7 +67,8 @@ impl MemoryEstimate {
         };
         let meshes: u64 = scene.meshes.iter().map(mesh_bytes).sum();
         let patches: u64 = scene.patch_meshes.iter().map(patch_bytes).sum();
-        let meshes = meshes + patches;
+        let curves: u64 = scene.curve_meshes.iter().map(curve_bytes).sum();
+        let meshes = meshes + patches + curves;
         let pictures: u64 = scene.images.iter().map(|i| i.pixels.size()).sum();
         let objects = scene.objects.iter().map(|o| o.shapes.len());
         let shapes = scene.shapes.len() + objects.sum::<usize>();
@@ -182,18 +186,11 @@ impl MemoryEstimate {
         }
         let mut sizes = Vec::new();
         for group in groups {
-            let mut size = [0; 3];
+            let mut size = [0; 4];
             for shape in group {
-                if let Geometry::Patches(id) = shape.geometry {
-                    let mesh = &scene.patch_meshes[id.0];
-                    let triangulates = options.triangulate_exact_shapes;
-                    let (primitives, baked) = if triangulates || shape.emission.is_some() {
-                        triangulated(mesh)
-                    } else {
-                        let own = crate::geometry::BYTES_PER_PATCH * mesh.patches.len() as u64;
-                        ([0, 0, mesh.patches.len()], patch_bytes(mesh) + own)
-                    };
-                    size = [0, 1, 2].map(|k: usize| size[k] + primitives[k]);
+                let is_cut = options.triangulate_exact_shapes || shape.emission.is_some();
+                if let Some((primitives, baked)) = of_exact(scene, shape, is_cut) {
+                    size = [0, 1, 2, 3].map(|k: usize| size[k] + primitives[k]);
                     held.add(baked);
                     self.geometry += baked;
                     continue;
@@ -218,7 +215,7 @@ impl MemoryEstimate {
             sizes.push(size);
         }
         let quadrics: usize = sizes.iter().map(|s| s[1]).sum();
-        let moving = moving_placements(scene);
+        let moving = own_placements(scene);
         let placements = scene.instances.len() + moving;
         let placed = crate::geometry::BYTES_PER_QUADRIC * quadrics as u64
             + crate::geometry::BYTES_PER_INSTANCE * placements as u64
@@ -239,6 +236,7 @@ impl MemoryEstimate {
             .map(|s| match s.geometry {
                 Geometry::Mesh(id) => scene.meshes[id.0].triangles.len() as u64,
                 Geometry::Patches(id) => scene.patch_meshes[id.0].triangle_count(),
+                Geometry::Curves(id) => scene.curve_meshes[id.0].triangle_count(),
                 Geometry::Sphere { .. } | Geometry::Disk { .. } | Geometry::QuadricPart(_) => 1,
             })
             .sum();
@@ -267,9 +265,9 @@ impl Held {
     }
 }
 
-/// At most so many placements move.
-fn moving_placements(scene: &Scene) -> usize {
-    let among = |shapes: &[Shape]| shapes.iter().filter(|s| s.motion.is_some()).count();
+/// At most so many placements move, or are of curves that a transform distorts.
+fn own_placements(scene: &Scene) -> usize {
+    let among = |shapes: &[Shape]| (shapes.iter()).filter(|s| has_own_space(s)).count();
     let objects: Vec<usize> = scene.objects.iter().map(|o| among(&o.shapes)).collect();
     let of = |i: &ObjectInstance| objects[i.object.0] + usize::from(i.motion.is_some());
     among(&scene.shapes) + scene.instances.iter().map(of).sum::<usize>()
@@ -281,19 +279,41 @@ fn mesh_of(shape: &Shape) -> Option<usize> {
         Geometry::Sphere { .. }
         | Geometry::Disk { .. }
         | Geometry::QuadricPart(_)
-        | Geometry::Patches(_) => None,
+        | Geometry::Patches(_)
+        | Geometry::Curves(_) => None,
     }
 }
 
-/// Numbers of triangles, quadrics and patches, and bytes, of patches that become triangles.
-fn triangulated(mesh: &PatchMesh) -> ([usize; 3], u64) {
-    let triangles = mesh.triangle_count();
-    // Cut patches have fewer vertices than triangles. Indices, shape and light of each; position, normal, coordinates.
+/// Numbers of triangles, quadrics, patches and segments, and bytes, of patches or curves; `None` of other shapes.
+///
+/// * `is_cut`: whether they become triangles.
+fn of_exact(scene: &Scene, shape: &Shape, is_cut: bool) -> Option<([usize; 4], u64)> {
+    let (triangles, whole) = match shape.geometry {
+        Geometry::Patches(id) => {
+            let mesh = &scene.patch_meshes[id.0];
+            let own = crate::geometry::BYTES_PER_PATCH * mesh.patches.len() as u64;
+            let whole = ([0, 0, mesh.patches.len(), 0], patch_bytes(mesh) + own);
+            (mesh.triangle_count(), whole)
+        }
+        Geometry::Curves(id) => {
+            let curves = &scene.curve_meshes[id.0];
+            let count = curves.segments.len();
+            let own = crate::geometry::BYTES_PER_SEGMENT * count as u64;
+            (curves.triangle_count(), ([0, 0, 0, count], own))
+        }
+        _ => return None,
+    };
+    if !is_cut {
+        return Some(whole);
+    }
+    // They have fewer vertices than triangles. Indices, shape and light of each; position, normal, coordinates.
     let bytes = triangles * (12 + 12 + 32);
-    (
-        [usize::try_from(triangles).unwrap_or(usize::MAX), 0, 0],
-        bytes,
-    )
+    let triangles = usize::try_from(triangles).unwrap_or(usize::MAX);
+    Some(([triangles, 0, 0, 0], bytes))
+}
+
+fn curve_bytes(curves: &CurveMesh) -> u64 {
+    (56 * curves.segments.len() + 24 * curves.normals.len()) as u64
 }
 
 fn patch_bytes(mesh: &PatchMesh) -> u64 {
@@ -424,6 +444,41 @@ mod tests {
             let prepared = crate::PreparedScene::new(&scene, &options).unwrap();
             let stats = prepared.geometry.accel.stats();
             assert_eq!(stats.patches, if triangulates { 0 } else { 3600 });
+            let ratio = estimate.tree as f64 / stats.bytes as f64;
+            assert!(expected.contains(&ratio), "{triangulates}: {ratio}");
+        }
+    }
+
+    #[test]
+    fn curves_are_counted_as_what_they_become() {
+        let lock = |i: u16| {
+            let at = |k: u16| {
+                let (i, k) = (f32::from(i), f32::from(k));
+                [
+                    (0.9 * i).sin() + 0.1 * k,
+                    (1.3 * i).cos(),
+                    (0.3 * k * i).sin(),
+                ]
+            };
+            [0, 1, 2, 3].map(at)
+        };
+        let mut scene = builtin::orbs();
+        scene.curve_meshes.push(CurveMesh {
+            segments: (0..2000).map(lock).collect(),
+            width_at_ends: vec![[0.01, 0.005]; 2000],
+            ..CurveMesh::default()
+        });
+        scene.shapes.truncate(1);
+        scene.shapes[0].emission = None;
+        scene.shapes[0].geometry = Geometry::Curves(specula_scene::scene::CurveMeshId(0));
+        let mut options = RenderOptions::from_scene(&scene);
+        // Packets of tubes are full.
+        for (triangulates, expected) in [(false, 0.8..1.5), (true, 0.9..2.0)] {
+            options.triangulate_exact_shapes = triangulates;
+            let estimate = MemoryEstimate::new(&scene, &options, 4);
+            let prepared = crate::PreparedScene::new(&scene, &options).unwrap();
+            let stats = prepared.geometry.accel.stats();
+            assert_eq!(stats.curves, if triangulates { 0 } else { 2000 });
             let ratio = estimate.tree as f64 / stats.bytes as f64;
             assert!(expected.contains(&ratio), "{triangulates}: {ratio}");
         }

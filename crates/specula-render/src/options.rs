@@ -174,9 +174,9 @@ pub struct RenderOptions {
     /// maps that are interpolated bilinearly are filtered by [`Interpolation::EWA`] then, others as
     /// [`RenderOptions::texture_filter`] says; nearest pixels stay.
     pub filter_normal_maps: bool,
-    /// Whether cylinders, parts of spheres and disks, and bilinear patches become triangles
-    /// ([their meshes](specula_scene::scene::QuadricPart::mesh), [those of patches](specula_scene::scene::PatchMesh::mesh)),
-    /// as they must for the GPU. Those that emit always do.
+    /// Whether cylinders, parts of spheres and disks, bilinear patches and curves become triangles
+    /// ([their meshes](specula_scene::scene::QuadricPart::mesh), [those of patches](specula_scene::scene::PatchMesh::mesh)
+    /// and [of curves](specula_scene::scene::CurveMesh::mesh)), as they must for the GPU. Those that emit always do.
     pub triangulate_exact_shapes: bool,
 }
 

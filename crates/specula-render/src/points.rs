@@ -250,7 +250,7 @@ impl PreparedScene {
     #[must_use]
     pub fn bumped_frame(&self, material: u32, at: &PrimitivePoint) -> [[f32; 3]; 2] {
         let (textures, geometry) = (&self.textures, &self.geometry);
-        let surface = geometry.surface_at(&location(at), || Vec3::from(at.near));
+        let surface = geometry.surface_at(&location(at), || near(at));
         let chosen = self
             .materials
             .at(material, textures, &surface.place(), true, |_| 0.5);
@@ -281,7 +281,7 @@ impl PreparedScene {
         alphas: [f32; 2],
     ) -> FilteredNormal {
         let (textures, geometry) = (&self.textures, &self.geometry);
-        let mut surface = geometry.surface_at(&location(at), || Vec3::from(at.near));
+        let mut surface = geometry.surface_at(&location(at), || near(at));
         surface.footprint = Some(Footprint {
             uv: changes,
             ..Footprint::default()
@@ -334,6 +334,11 @@ impl PreparedScene {
             factor: softness.map_or(1.0, |s| s.factor(wi)),
         }
     }
+}
+
+/// What [`crate::geometry::Geometry::surface_at`] needs of a point of a primitive that is no curve.
+fn near(at: &PrimitivePoint) -> [Vec3<f32>; 2] {
+    [Vec3::from(at.near), Vec3::ZERO]
 }
 
 fn location(at: &PrimitivePoint) -> PrimitiveLocation {

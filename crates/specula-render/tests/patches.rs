@@ -51,6 +51,7 @@ fn saddle() -> PatchMesh {
         uvs: vec![[0.0, 0.1], [1.0, 0.0], [0.2, 1.0], [1.3, 1.2]],
         normals: Vec::new(),
         patches: vec![[0, 1, 2, 3]],
+        are_polygons: false,
     }
 }
 
@@ -74,6 +75,7 @@ fn fan() -> PatchMesh {
         uvs: positions.iter().map(|p: &[f32; 3]| [p[0], p[1]]).collect(),
         positions,
         patches: vec![[0, 1, 2, 3], [1, 4, 3, 4]],
+        are_polygons: false,
     }
 }
 

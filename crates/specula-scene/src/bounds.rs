@@ -4,7 +4,8 @@ use glam::{DMat4, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::mesh::SERIAL;
-use crate::scene::{Geometry, Mesh, Motion, PatchMesh, Scene, Shape, Trajectory};
+use crate::scene::{Geometry, Mesh, Motion, Scene, Shape, Trajectory};
+use crate::triangulate::ExactMeshes;
 
 /// Farthest coordinate of a scene: squares of distances must fit single precision.
 pub(crate) const FARTHEST: f64 = 1e18;
@@ -119,7 +120,7 @@ impl BoundingBox {
 /// The box around a geometry in its own space.
 pub(crate) fn of_geometry(
     meshes: &[Mesh],
-    patch_meshes: &[PatchMesh],
+    exact: ExactMeshes<'_>,
     geometry: &Geometry,
 ) -> BoundingBox {
     match *geometry {
@@ -164,10 +165,25 @@ pub(crate) fn of_geometry(
         }
         // A patch lies within the hull of its corners.
         Geometry::Patches(id) => {
-            let mesh = &patch_meshes[id.0];
+            let mesh = &exact.patches[id.0];
             let corners = mesh.patches.iter().flatten();
             let points = corners.map(|&i| Vec3::from(mesh.positions[i as usize]).as_dvec3());
             points.fold(BoundingBox::EMPTY, BoundingBox::including)
+        }
+        // A centre line lies within the hull of its control points.
+        Geometry::Curves(id) => {
+            let curves = &exact.curves[id.0];
+            let segments = curves.segments.iter().zip(&curves.width_at_ends);
+            let boxes = segments.map(|(controls, [from, to])| {
+                let half = DVec3::splat(0.5 * f64::from(from.max(*to)));
+                let points = controls.iter().map(|p| Vec3::from(*p).as_dvec3());
+                let hull = points.fold(BoundingBox::EMPTY, BoundingBox::including);
+                BoundingBox {
+                    min: hull.min - half,
+                    max: hull.max + half,
+                }
+            });
+            boxes.fold(BoundingBox::EMPTY, BoundingBox::union)
         }
     }
 }
@@ -185,7 +201,7 @@ pub(crate) fn of_file(scene: &Scene) -> BoundingBox {
 fn of_shapes_where(scene: &Scene, counts: impl Fn(&Shape) -> bool) -> BoundingBox {
     let of_shapes = |shapes: &[Shape]| {
         let boxes = (shapes.iter().filter(|s| counts(s))).map(|s| {
-            of_geometry(&scene.meshes, &scene.patch_meshes, &s.geometry)
+            of_geometry(&scene.meshes, scene.exact_meshes(), &s.geometry)
                 .placed(&s.to_world, s.motion.as_ref())
         });
         boxes.fold(BoundingBox::EMPTY, BoundingBox::union)

@@ -40,6 +40,7 @@ impl Scene {
             measured,
             meshes,
             patch_meshes,
+            curve_meshes,
             shapes,
             objects,
             instances,
@@ -66,6 +67,9 @@ impl Scene {
         }
         for patches in patch_meshes {
             patches.feed(&mut hash);
+        }
+        for curves in curve_meshes {
+            curves.feed(&mut hash);
         }
         for (i, _) in meshes.iter().enumerate().filter(|(_, m)| m.is_fibre) {
             i.feed(&mut hash);

@@ -65,7 +65,6 @@ mod stage;
 pub mod summary;
 mod transform;
 mod triangulate;
-mod tube;
 pub mod validate;
 pub mod write_pbrt;
 

@@ -14,6 +14,8 @@ pub(crate) struct Cleaning {
     pub(crate) dropped_triangles: usize,
     /// Patches without area that were dropped.
     pub(crate) dropped_patches: usize,
+    /// Segments of curves without length or width that were dropped.
+    pub(crate) dropped_segments: usize,
     /// Shading normals that were zero or not finite and became geometric ones.
     pub(crate) replaced_normals: usize,
     /// Whether the surface coordinates were dropped because some were not finite.
@@ -31,6 +33,12 @@ impl Cleaning {
         if self.dropped_patches > 0 {
             let count = self.dropped_patches;
             messages.push(format!("{count} patches without area are dropped"));
+        }
+        if self.dropped_segments > 0 {
+            let count = self.dropped_segments;
+            messages.push(format!(
+                "{count} segments without length or width are dropped"
+            ));
         }
         if self.replaced_normals > 0 {
             let count = self.replaced_normals;

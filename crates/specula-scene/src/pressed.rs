@@ -5,8 +5,9 @@ use glam::{DMat4, DVec3};
 use crate::Limits;
 use crate::mesh;
 use crate::num::f32_of;
-use crate::scene::{Geometry, Mesh, MeshId, PatchMesh, Shape};
+use crate::scene::{Geometry, Mesh, MeshId, Shape};
 use crate::transform::is_invertible;
+use crate::triangulate::ExactMeshes;
 
 /// Sines of angles below this are rounding: what they span has no area.
 const FLAT: f64 = 1e-10;
@@ -48,7 +49,7 @@ impl Press {
     /// The shape under a transform that cannot be inverted.
     ///
     /// * `to_world`: leads from the shape's own space to that of the result.
-    /// * `meshes`, `patch_meshes`: those of the scene; what is left of a shape may become a new mesh.
+    /// * `meshes`, `exact`: those of the scene; what is left of a shape may become a new mesh.
     ///
     /// # Errors
     ///
@@ -58,21 +59,23 @@ impl Press {
         shape: &Shape,
         to_world: &DMat4,
         meshes: &mut Vec<Mesh>,
-        patch_meshes: &[PatchMesh],
+        exact: ExactMeshes<'_>,
     ) -> Result<Pressed, String> {
         let Some(normal) = plane(to_world) else {
             return Ok(Pressed::Nothing);
         };
         let mut pressed = shape.clone();
         pressed.motion = None;
-        let flat = match shape.geometry {
-            Geometry::Mesh(MeshId(i)) => self.flat(&meshes[i], to_world)?,
-            Geometry::QuadricPart(part) => self.flat(&part.mesh(), to_world)?,
-            Geometry::Patches(id) => self.flat(&patch_meshes[id.0].mesh(), to_world)?,
-            Geometry::Sphere { .. } | Geometry::Disk { .. } => None,
+        let flat = match (shape.geometry, exact.mesh(&shape.geometry)) {
+            (_, Some(mesh)) => self.flat(&mesh, to_world)?,
+            (Geometry::Mesh(MeshId(i)), None) => self.flat(&meshes[i], to_world)?,
+            (_, None) => None,
         };
         let is_kept = match shape.geometry {
-            Geometry::Mesh(_) | Geometry::QuadricPart(_) | Geometry::Patches(_) => {
+            Geometry::Mesh(_)
+            | Geometry::QuadricPart(_)
+            | Geometry::Patches(_)
+            | Geometry::Curves(_) => {
                 pressed.to_world = DMat4::IDENTITY;
                 pressed.geometry = Geometry::Mesh(MeshId(meshes.len()));
                 flat.map(|mesh| meshes.push(mesh)).is_some()
@@ -186,7 +189,7 @@ mod tests {
     fn press(geometry: Geometry, m: DMat4, meshes: &mut Vec<Mesh>) -> Option<Shape> {
         let shape = Shape::new(geometry, m, MaterialId(0));
         match Press::new(&Limits::default())
-            .shape(&shape, &m, meshes, &[])
+            .shape(&shape, &m, meshes, ExactMeshes::default())
             .unwrap()
         {
             Pressed::Flat(shape) => Some(*shape),
@@ -286,8 +289,12 @@ mod tests {
         let mut press = Press::new(&limits);
         let m = DMat4::from_scale(DVec3::new(1.0, 1.0, 0.0));
         let shape = Shape::new(Geometry::Mesh(MeshId(0)), m, MaterialId(0));
-        press.shape(&shape, &m, &mut meshes, &[]).unwrap();
-        let error = press.shape(&shape, &m, &mut meshes, &[]).unwrap_err();
+        press
+            .shape(&shape, &m, &mut meshes, ExactMeshes::default())
+            .unwrap();
+        let error = press
+            .shape(&shape, &m, &mut meshes, ExactMeshes::default())
+            .unwrap_err();
         assert!(error.contains("`max_vertices`"), "{error}");
     }
 }

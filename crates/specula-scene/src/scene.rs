@@ -5,6 +5,7 @@
 
 mod camera;
 mod coat;
+mod curve_mesh;
 mod lens;
 mod light;
 mod material;
@@ -13,9 +14,11 @@ mod patch_mesh;
 mod quadric_part;
 mod shape;
 mod texture;
+pub(crate) mod tube;
 
 pub use camera::{Camera, Film, Filter, Projection};
 pub use coat::CoatMedium;
+pub use curve_mesh::{CurveKind, CurveMesh, ribbon_normal};
 pub use lens::{LensInterface, LensSystem, StopPicture};
 pub use light::{EnvironmentMapping, ImageProjection, Light, Profile, SpotFalloff};
 pub use material::{
@@ -24,6 +27,7 @@ pub use material::{
 };
 pub use motion::{Motion, Trajectory};
 pub use patch_mesh::PatchMesh;
+pub(crate) use patch_mesh::is_parallelogram;
 pub use quadric_part::QuadricPart;
 pub use shape::{Emission, Geometry, Mesh, Object, ObjectInstance, Shape};
 pub use texture::{
@@ -53,6 +57,9 @@ pub struct MeshId(pub usize);
 /// Index into [`Scene::patch_meshes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct PatchMeshId(pub usize);
+/// Index into [`Scene::curve_meshes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct CurveMeshId(pub usize);
 /// Index into [`Scene::objects`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ObjectId(pub usize);
@@ -81,6 +88,8 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// Meshes of bilinear patches in their own space.
     pub patch_meshes: Vec<PatchMesh>,
+    /// Curves in their own space.
+    pub curve_meshes: Vec<CurveMesh>,
     /// Shapes of the world.
     pub shapes: Vec<Shape>,
     /// Groups of shapes that instances refer to.
@@ -140,6 +149,7 @@ impl Scene {
             measured: Vec::new(),
             meshes: Vec::new(),
             patch_meshes: Vec::new(),
+            curve_meshes: Vec::new(),
             shapes: Vec::new(),
             objects: Vec::new(),
             instances: Vec::new(),

@@ -61,7 +61,8 @@ impl Summary {
             Geometry::Sphere { .. }
             | Geometry::Disk { .. }
             | Geometry::QuadricPart(_)
-            | Geometry::Patches(_) => 0,
+            | Geometry::Patches(_)
+            | Geometry::Curves(_) => 0,
         };
         let in_object = |i: usize| {
             scene.objects[i]
@@ -131,6 +132,7 @@ fn shape_kind(shape: &Shape) -> &'static str {
         Geometry::QuadricPart(QuadricPart::Cylinder { .. }) => "cylinder",
         Geometry::QuadricPart(QuadricPart::Disk { .. }) => "partial disk",
         Geometry::Patches(_) => "patch mesh",
+        Geometry::Curves(_) => "curves",
     }
 }
 

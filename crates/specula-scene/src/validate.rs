@@ -10,8 +10,8 @@ use crate::bounds::{self, FARTHEST};
 use crate::image::Image;
 use crate::mesh::{first, is_finite, is_zero};
 use crate::scene::{
-    Filter, Geometry, ImageProjection, Light, Mesh, Motion, ObjectInstance, PatchMesh, Profile,
-    Projection, Scene, Shape,
+    CurveKind, CurveMesh, Filter, Geometry, ImageProjection, Light, Mesh, Motion, ObjectInstance,
+    PatchMesh, Profile, Projection, Scene, Shape,
 };
 use crate::transform::mirrors;
 
@@ -54,7 +54,7 @@ impl Scene {
     ///   indices of refraction are above 0; directions of lights have length 1;
     /// * every transform is finite in `f32`, affine and invertible; what moves does not emit, and mirrors at both
     ///   ends of its motion or at neither;
-    /// * meshes have triangles or patches; attributes are empty or one per vertex; shading normals are not 0;
+    /// * meshes have triangles, patches or segments; attributes are empty or one per vertex; shading normals are not 0;
     /// * the picture has pixels, the crop lies in it and is not empty;
     /// * nothing reaches beyond 1e18 from the origin;
     /// * there is a shape, or an instance of an object that has one.
@@ -100,6 +100,9 @@ impl Scene {
         }
         for (i, mesh) in self.patch_meshes.iter().enumerate() {
             hear(check_patch_mesh(&format!("patch mesh {i}"), mesh))?;
+        }
+        for (i, curves) in self.curve_meshes.iter().enumerate() {
+            hear(check_curves(&format!("curves {i}"), curves))?;
         }
         for (i, shape) in self.shapes.iter().enumerate() {
             hear(self.check_shape(&format!("shape {i}"), shape))?;
@@ -271,6 +274,11 @@ impl Scene {
                 id.0 < self.patch_meshes.len(),
                 what,
                 "its mesh of patches is out of range",
+            ),
+            Geometry::Curves(id) => ensure(
+                id.0 < self.curve_meshes.len(),
+                what,
+                "its curves are out of range",
             ),
         }
     }
@@ -472,6 +480,34 @@ fn check_patch_mesh(what: &str, mesh: &PatchMesh) -> Result<(), Invalid> {
         "a patch refers to a vertex that does not exist",
     )?;
     check_vertices(what, [&mesh.positions, &mesh.normals], &mesh.uvs)
+}
+
+fn check_curves(what: &str, curves: &CurveMesh) -> Result<(), Invalid> {
+    let count = curves.segments.len();
+    ensure(count > 0, what, "they have no segments")?;
+    let controls = curves.segments.as_flattened();
+    ensure(
+        first(controls, |p| !is_finite(p)).is_none(),
+        what,
+        "a control point is not finite",
+    )?;
+    let is_width = |w: &f32| w.is_finite() && *w >= 0.0;
+    ensure(
+        curves.width_at_ends.len() == count
+            && curves.width_at_ends.as_flattened().iter().all(is_width),
+        what,
+        "they have not one width at each end of a segment, none negative",
+    )?;
+    let expected = match curves.kind {
+        CurveKind::Ribbon => count,
+        CurveKind::Flat | CurveKind::Cylinder => 0,
+    };
+    let is_unit = |n: &[f32; 3]| (n.iter().map(|x| x * x).sum::<f32>() - 1.0).abs() < 1e-3;
+    ensure(
+        curves.normals.len() == expected && curves.normals.as_flattened().iter().all(is_unit),
+        what,
+        "ribbons have not one unit normal at each end of a segment, or others have some",
+    )
 }
 
 fn check_mesh(what: &str, mesh: &Mesh) -> Result<(), Invalid> {

@@ -128,7 +128,7 @@ impl Kernel for Avx2 {
         match child.kind() {
             ChildKind::Node => prefetch(&scene.nodes[child.index()]),
             ChildKind::Packet => prefetch(&scene.packets[child.index()]),
-            ChildKind::Quadric | ChildKind::PatchOrPlacement => {}
+            ChildKind::Quadric | ChildKind::PatchOrPlacement | ChildKind::CurvePart => {}
         }
     }
 

@@ -101,6 +101,8 @@ impl SmallScene {
                 ChildKind::Packet => triangles.extend(scene.packets[child.index()].occupied()),
                 ChildKind::Quadric => quadrics.push(scene.quadrics[child.index()]),
                 ChildKind::PatchOrPlacement => patches.push(scene.patches[child.index()]),
+                // Of which there are many.
+                ChildKind::CurvePart => return None,
             }
         }
         if triangles.len() + QUADRIC * quadrics.len() + PATCH * patches.len() > MOST {

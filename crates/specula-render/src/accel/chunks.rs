@@ -23,7 +23,7 @@ pub(super) struct Item {
     pub(super) bounds: Bounds,
     /// The first one's place in the input.
     pub(super) primitive: u32,
-    /// How many there are; 0 marks what is no item.
+    /// How many there are; 0 marks what is no item. Of a curve, which part it is.
     pub(super) count: u32,
 }
 

@@ -7,12 +7,13 @@ use super::collapse::{self, Tree};
 use super::kernel::MAX_DEPTH;
 use super::node::{Child, ChildKind, Node8, Packet8};
 use super::traverse::Scene;
-use super::{Bounds, Group, patch, quadric, triangle};
+use super::{Bounds, CurveSegment, Group, curve, patch, quadric, triangle};
 
 /// A group's arrays, with indices of its own, and their tree.
 pub(super) struct GroupTree {
     arrays: Arrays,
     tree: Tree,
+    curves: Vec<CurveSegment>,
     /// How many triangles can be hit.
     pub(super) triangles: usize,
 }
@@ -29,6 +30,7 @@ struct Leaves {
     packets: Vec<Packet8>,
     quadrics: Vec<quadric::PreparedQuadric>,
     patches: Vec<patch::PreparedPatch>,
+    curve_parts: Vec<curve::CurvePart>,
 }
 
 /// Levels of the tree over the parts of chunks, and of each part: balanced trees over
@@ -61,8 +63,7 @@ impl GroupTree {
         let tree = match items.len() {
             0 => return None,
             n if n <= 2 * chunks::CHUNK => {
-                let others = group.quadrics.len() + group.patches.len();
-                arrays.reserve(n - others.min(n));
+                arrays.reserve(n.min(group.triangles.len()));
                 let Arrays { nodes, leaves } = &mut arrays;
                 collapse::build(
                     &bounds(&items),
@@ -76,18 +77,25 @@ impl GroupTree {
         Some(Self {
             arrays,
             tree,
+            curves: group.curves.to_vec(),
             triangles,
         })
     }
 
     /// Appends the arrays to the scene's; returns the tree with its indices there.
-    pub(super) fn append(self, scene: &mut Scene) -> Tree {
+    pub(super) fn append(mut self, scene: &mut Scene) -> Tree {
+        let first_curve = crate::convert::id(scene.curves.len());
+        for part in &mut self.arrays.leaves.curve_parts {
+            part.curve += first_curve;
+        }
+        scene.curves.append(&mut self.curves);
         let mut arrays = Arrays {
             nodes: std::mem::take(&mut scene.nodes),
             leaves: Leaves {
                 packets: std::mem::take(&mut scene.packets),
                 quadrics: std::mem::take(&mut scene.quadrics),
                 patches: std::mem::take(&mut scene.patches),
+                curve_parts: std::mem::take(&mut scene.curve_parts),
             },
         };
         let offset = arrays.append(self.arrays);
@@ -95,6 +103,7 @@ impl GroupTree {
         scene.packets = arrays.leaves.packets;
         scene.quadrics = arrays.leaves.quadrics;
         scene.patches = arrays.leaves.patches;
+        scene.curve_parts = arrays.leaves.curve_parts;
         offset.tree(self.tree)
     }
 }
@@ -123,6 +132,17 @@ fn items(group: &Group<'_>) -> Vec<Item> {
             count: 1,
         })
     }));
+    let first_curve = first_patch + group.patches.len();
+    for (primitive, curve) in (first_curve..).zip(group.curves) {
+        let primitive = u32::try_from(primitive).expect("counts are checked");
+        curve.parts(&mut |bounds, part| {
+            items.push(Item {
+                bounds,
+                primitive,
+                count: part,
+            });
+        });
+    }
     items
 }
 
@@ -159,7 +179,7 @@ fn pair(group: &Group<'_>, first: usize, items: &mut [Item]) {
     }
 }
 
-/// How many triangles an item has; 0 for a quadric or a patch.
+/// How many triangles an item has; 0 for others.
 fn triangles(group: &Group<'_>, item: &Item) -> usize {
     match (item.primitive as usize) < group.triangles.len() {
         true => item.count as usize,
@@ -214,15 +234,7 @@ impl Leaves {
         let first = &items[leaf[0] as usize];
         if triangles(group, first) == 0 {
             let index = first.primitive as usize - group.triangles.len();
-            let Some(quadric) = group.quadrics.get(index) else {
-                let corners = patch_corners(group, index - group.quadrics.len());
-                let patch = patch::PreparedPatch::new(corners, first.primitive);
-                self.patches.push(patch);
-                return Child::new(ChildKind::PatchOrPlacement, self.patches.len() - 1);
-            };
-            let placed = quadric::PreparedQuadric::new(quadric, first.primitive);
-            self.quadrics.push(placed);
-            return Child::new(ChildKind::Quadric, self.quadrics.len() - 1);
+            return self.write_other(group, first, index);
         }
         let mut primitives = [0; 8];
         let mut count = 0;
@@ -250,15 +262,44 @@ impl Leaves {
         }
         Child::new(ChildKind::Packet, index)
     }
+
+    /// A leaf of what is no triangle.
+    ///
+    /// * `index`: that of the primitive behind the triangles.
+    fn write_other(&mut self, group: &Group<'_>, item: &Item, index: usize) -> Child {
+        let primitive = item.primitive;
+        if let Some(quadric) = group.quadrics.get(index) {
+            let placed = quadric::PreparedQuadric::new(quadric, primitive);
+            self.quadrics.push(placed);
+            return Child::new(ChildKind::Quadric, self.quadrics.len() - 1);
+        }
+        let index = index - group.quadrics.len();
+        if index < group.patches.len() {
+            let corners = patch_corners(group, index);
+            let patch = patch::PreparedPatch::new(corners, primitive);
+            self.patches.push(patch);
+            return Child::new(ChildKind::PatchOrPlacement, self.patches.len() - 1);
+        }
+        self.curve_parts.push(curve::CurvePart {
+            curve: crate::convert::id(index - group.patches.len()),
+            primitive,
+            part: item.count,
+        });
+        Child::new(ChildKind::CurvePart, self.curve_parts.len() - 1)
+    }
 }
 
 /// Where arrays begin within others.
-struct Offset([usize; 4]);
+struct Offset([usize; 5]);
 
 impl Offset {
     fn child(&self, child: Child) -> Child {
         let kind = child.kind();
-        Child::new(kind, self.0[kind as usize] + child.index())
+        let index = match kind {
+            ChildKind::CurvePart => child.part_index(),
+            _ => child.index(),
+        };
+        Child::new(kind, self.0[kind as usize] + index)
     }
 
     fn tree(&self, tree: Tree) -> Tree {
@@ -284,8 +325,9 @@ impl Arrays {
             self.leaves.packets.len(),
             self.leaves.quadrics.len(),
             self.leaves.patches.len(),
+            self.leaves.curve_parts.len(),
         ]);
-        if self.nodes.capacity() == 0 && offset.0 == [0; 4] {
+        if self.nodes.capacity() == 0 && offset.0 == [0; 5] {
             *self = other;
             return offset;
         }
@@ -300,6 +342,7 @@ impl Arrays {
         self.leaves.packets.par_extend(packets);
         self.leaves.quadrics.extend(other.leaves.quadrics);
         self.leaves.patches.extend(other.leaves.patches);
+        self.leaves.curve_parts.extend(other.leaves.curve_parts);
         offset
     }
 }

@@ -4,6 +4,7 @@ use glam::DMat4;
 use thiserror::Error;
 
 use super::Quadric;
+use super::curve::{CurveSegment, MOST_SPLITS};
 
 /// Geometry in a space of its own, to be placed by [`Instance`]s.
 #[derive(Clone, Copy, Debug, Default)]
@@ -16,6 +17,8 @@ pub struct Group<'a> {
     pub quadrics: &'a [Quadric],
     /// Bilinear patches, as indices of their vertices `p00`, `p10`, `p01` and `p11`. Primitives behind those.
     pub patches: &'a [[u32; 4]],
+    /// Segments of curves. The last primitives.
+    pub curves: &'a [CurveSegment],
 }
 
 /// A group, placed in the world.
@@ -99,14 +102,17 @@ pub enum AccelError {
     },
 }
 
-/// Indices of nodes, packets, quadrics, patches and instances have 30 bits.
+/// Indices of nodes, packets and quadrics have 30 bits, those of patches, parts of curves and instances 29.
 const MOST: usize = 1 << 29;
 
 /// Checks every index and transform, so that the build and the traversal cannot fail.
 pub(super) fn check(groups: &[Group<'_>], instances: &[Instance]) -> Result<(), AccelError> {
     let primitives: usize = groups
         .iter()
-        .map(|g| g.triangles.len() + g.quadrics.len() + g.patches.len())
+        .map(|g| {
+            let parts = g.curves.len() << MOST_SPLITS;
+            g.triangles.len() + g.quadrics.len() + g.patches.len() + parts
+        })
         .sum();
     let count = primitives.max(instances.len());
     if count > MOST {

@@ -1,4 +1,5 @@
-//! Ray casting: bounding volume hierarchies of 8-wide nodes over triangles, quadrics and bilinear patches.
+//! Ray casting: bounding volume hierarchies of 8-wide nodes over triangles, quadrics, bilinear
+//! patches and curves.
 //!
 //! ```text
 //! Group (object space) --> pairs of triangles --> binary tree (obvhs) --> 8-wide nodes, packets of 8 triangles
@@ -24,6 +25,7 @@ mod brute_force;
 mod chunks;
 mod clusters;
 mod collapse;
+mod curve;
 mod flat;
 mod frame;
 mod group;
@@ -45,6 +47,7 @@ mod avx2;
 mod tests;
 
 pub use bounds::Bounds;
+pub use curve::{CurveSegment, CurveShape};
 pub use input::{AccelError, Group, Instance};
 pub(crate) use predicted::predicted;
 pub use quadric::{Quadric, QuadricShape};
@@ -80,13 +83,14 @@ pub struct Ray {
 pub struct Hit {
     /// Ray parameter, in `(0, t_max)`.
     pub t: f32,
-    /// Barycentric weight of the triangle's second vertex; 0 for quadrics; of patches the coordinate u.
+    /// Barycentric weight of the triangle's second vertex; 0 for quadrics; of patches and curves the coordinate u.
     ///
     /// The point of a triangle is `(1 - u - v) p0 + u p1 + v p2`, in the group's space.
     pub u: f32,
-    /// Barycentric weight of the triangle's third vertex; 0 for quadrics; of patches the coordinate v.
+    /// Barycentric weight of the triangle's third vertex; 0 for quadrics; of patches and curves the coordinate v.
     pub v: f32,
-    /// Index within the group: its triangles first, then its quadrics, then its patches, each in input order.
+    /// Index within the group: its triangles first, then its quadrics, its patches and its segments of curves, each in
+    /// input order.
     pub primitive: u32,
     /// Index of the instance in the list given to [`Accel::build`].
     pub instance: u32,
@@ -110,17 +114,21 @@ pub struct AccelStats {
     pub quadrics: usize,
     /// Bilinear patches that can be hit, over all groups.
     pub patches: usize,
+    /// Segments of curves, over all groups.
+    pub curves: usize,
+    /// Parts of segments that can be hit, over all groups.
+    pub curve_parts: usize,
     /// 8-wide nodes, of 256 bytes.
     pub nodes: usize,
     /// Packets of at most 8 triangles, of 320 bytes.
     pub packets: usize,
     /// Levels of 8-wide nodes of the deepest tree.
     pub depth: usize,
-    /// Memory of nodes, packets, quadrics, patches and instances.
+    /// Memory of nodes, packets, quadrics, patches, curves and instances.
     pub bytes: usize,
 }
 
-/// An acceleration structure over instances of groups of triangles, quadrics and bilinear patches.
+/// An acceleration structure over instances of groups of triangles, quadrics, bilinear patches and curves.
 ///
 /// # Examples
 ///
@@ -164,7 +172,8 @@ enum KernelChoice {
 impl Accel {
     /// Builds the trees of the groups (in parallel, in rayon's current pool) and of the instances.
     ///
-    /// Triangles and patches without area or with a vertex that is not finite are left out. Indices of the others stay as they are.
+    /// Triangles, patches and curves without area or with a point that is not finite are left out. Indices of the others
+    /// stay as they are.
     ///
     /// # Errors
     ///
@@ -222,6 +231,8 @@ impl Accel {
                 triangles,
                 quadrics: scene.quadrics.len(),
                 patches: scene.patches.len(),
+                curves: scene.curves.len(),
+                curve_parts: scene.curve_parts.len(),
                 nodes: scene.nodes.len(),
                 packets: scene.packets.len(),
                 depth,
@@ -229,6 +240,8 @@ impl Accel {
                     + size_of_val(scene.packets.as_slice())
                     + size_of_val(scene.quadrics.as_slice())
                     + size_of_val(scene.patches.as_slice())
+                    + size_of_val(scene.curves.as_slice())
+                    + size_of_val(scene.curve_parts.as_slice())
                     + size_of_val(scene.placements.as_slice()),
             },
             scene,

@@ -12,7 +12,8 @@ pub(super) const WIDTH: usize = 8;
 #[repr(C, align(32))]
 pub(super) struct Lanes(pub(super) [f32; WIDTH]);
 
-/// A reference to a child of a node, or to the root: two bits of kind and an index of 30 bits.
+/// A reference to a child of a node, or to the root: two bits of kind and an index of 30 bits, or three bits and one of
+/// 29.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 #[repr(transparent)]
 pub(super) struct Child(pub(super) u32);
@@ -25,13 +26,24 @@ pub(super) enum ChildKind {
     Quadric,
     /// A patch in the tree of a group, an instance in that over instances: no tree has both.
     PatchOrPlacement,
+    /// A part of a curve.
+    CurvePart,
 }
+
+/// Bits of the kinds of 29 bits, and that by which they differ.
+const PATCHES: u32 = 3 << 30;
+const CURVES: u32 = 1 << 29;
 
 impl Child {
     pub(super) fn new(kind: ChildKind, index: usize) -> Self {
         let index = u32::try_from(index).expect("counts are checked before the build");
-        assert!(index < 1 << 30, "counts are checked before the build");
-        Self(((kind as u32) << 30) | index)
+        let (bits, most) = match kind {
+            ChildKind::CurvePart => (PATCHES | CURVES, CURVES),
+            ChildKind::PatchOrPlacement => (PATCHES, CURVES),
+            kind => ((kind as u32) << 30, 1 << 30),
+        };
+        assert!(index < most, "counts are checked before the build");
+        Self(bits | index)
     }
 
     #[inline(always)]
@@ -45,13 +57,21 @@ impl Child {
             0 => ChildKind::Node,
             1 => ChildKind::Packet,
             2 => ChildKind::Quadric,
-            _ => ChildKind::PatchOrPlacement,
+            _ if self.0 & CURVES == 0 => ChildKind::PatchOrPlacement,
+            _ => ChildKind::CurvePart,
         }
     }
 
+    /// Its index among those of its kind, but of parts of curves.
     #[inline(always)]
     pub(super) fn index(self) -> usize {
         (self.0 & ((1 << 30) - 1)) as usize
+    }
+
+    /// The index of a part of a curve.
+    #[inline(always)]
+    pub(super) fn part_index(self) -> usize {
+        (self.0 & (CURVES - 1)) as usize
     }
 }
 

@@ -40,9 +40,9 @@ pub(super) struct PreparedPatch {
     pub(super) primitive: u32,
 }
 
-/// Where a ray hits a patch.
+/// Where a ray hits a patch or a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct PatchHit {
+pub(super) struct UvHit {
     /// Not above 0 where it misses.
     pub(super) t: f32,
     /// In `[0, 1]`, as `v`.
@@ -50,9 +50,9 @@ pub(super) struct PatchHit {
     pub(super) v: f32,
 }
 
-impl PatchHit {
+impl UvHit {
     /// A miss.
-    const NONE: Self = Self {
+    pub(super) const NONE: Self = Self {
         t: f32::NAN,
         u: 0.0,
         v: 0.0,
@@ -80,7 +80,7 @@ impl PreparedPatch {
     /// Cold, so that the traversal keeps its registers for triangles.
     #[cold]
     #[inline(never)]
-    pub(super) fn hit(&self, ray: &Ray, axes: [u8; 3]) -> PatchHit {
+    pub(super) fn hit(&self, ray: &Ray, axes: [u8; 3]) -> UvHit {
         let permuted = |p: [f32; 3]| axes.map(|axis| f64::from(p[usize::from(axis)]));
         let (o, d) = (
             permuted(ray.origin.to_array()),
@@ -104,13 +104,13 @@ impl PreparedPatch {
 /// The first hit above z = 0 on the axis z.
 ///
 /// * `scale`: `t` over z.
-fn first_hit([p00, p10, p01, p11]: [[f64; 3]; 4], scale: f64) -> PatchHit {
-    let mut first = PatchHit::NONE;
+fn first_hit([p00, p10, p01, p11]: [[f64; 3]; 4], scale: f64) -> UvHit {
+    let mut first = UvHit::NONE;
     let mut offer = |uv: [f64; 2], z: f64| {
         let t = f32::of(z * scale);
         if t > 0.0 && (t < first.t || first.t.is_nan()) {
             let [u, v] = uv.map(f32::of);
-            first = PatchHit { t, u, v };
+            first = UvHit { t, u, v };
         }
     };
     let diagonals = [minus(p11, p00), minus(p10, p01)];

@@ -1,6 +1,8 @@
 //! How much memory acceleration structures take, by counts of primitives.
 
+use super::CurveSegment;
 use super::chunks::{CHUNK, Item};
+use super::curve::{CurvePart, MOST_SPLITS};
 use super::group::WAVE;
 use super::instances::Placement;
 use super::patch::PreparedPatch;
@@ -10,6 +12,8 @@ use super::quadric::PreparedQuadric;
 const TRIANGLE: usize = 104;
 /// The share of the nodes that a quadric, a patch or an instance has.
 const NODES_OF_LEAF: usize = 48;
+/// Parts of a segment of a curve: of hair nearly all.
+const PARTS: usize = 1 << MOST_SPLITS;
 /// A box with its index, of each primitive of a group. Pairs of triangles share one: how many there are is not
 /// known beforehand.
 const ITEM: usize = size_of::<Item>();
@@ -27,15 +31,16 @@ pub(crate) struct Predicted {
     pub(crate) building: u64,
 }
 
-/// The trees over groups of so many triangles, quadrics and patches, and over their instances.
-pub(crate) fn predicted(groups: &[[usize; 3]], instances: usize, threads: usize) -> Predicted {
+/// The trees over groups of so many triangles, quadrics, patches and segments of curves, and over their instances.
+pub(crate) fn predicted(groups: &[[usize; 4]], instances: usize, threads: usize) -> Predicted {
     let quadric = size_of::<PreparedQuadric>() + NODES_OF_LEAF;
     let patch = size_of::<PreparedPatch>() + NODES_OF_LEAF;
+    let curve = size_of::<CurveSegment>() + PARTS * (size_of::<CurvePart>() + NODES_OF_LEAF);
     let (mut finished, mut largest) = (0, 0);
     let mut building = Vec::new();
-    for &[triangles, quadrics, patches] in groups {
-        let tree = TRIANGLE * triangles + quadric * quadrics + patch * patches;
-        let items = triangles + quadrics + patches;
+    for &[triangles, quadrics, patches, curves] in groups {
+        let tree = TRIANGLE * triangles + quadric * quadrics + patch * patches + curve * curves;
+        let items = triangles + quadrics + patches + PARTS * curves;
         finished += tree;
         largest = largest.max(tree);
         // In large groups as many chunks at once as there are threads, of a wave at most.
@@ -51,7 +56,7 @@ pub(crate) fn predicted(groups: &[[usize; 3]], instances: usize, threads: usize)
     // Groups are built side by side, and then copied into one that grows.
     building.sort_unstable();
     let side_by_side: usize = building.iter().rev().take(threads.max(1)).sum();
-    let several = groups.iter().filter(|g| **g != [0; 3]).count() > 1;
+    let several = groups.iter().filter(|g| **g != [0; 4]).count() > 1;
     let copied = if several { 2 * largest } else { 0 };
     let placed = instances * (size_of::<Placement>() + NODES_OF_LEAF);
     Predicted {

@@ -1,10 +1,11 @@
 //! Traversal of the trees by a ray, near children first; generic over the kernel.
 
+use super::curve::{CurvePart, CurveSegment};
 use super::frame::{RayFrame, SLACK};
 use super::instances::{self, Placement};
 use super::kernel::{EntryStack, Kernel, PacketHits};
 use super::node::{Child, ChildKind, Lanes, Node8, Packet8};
-use super::patch::PreparedPatch;
+use super::patch::{PreparedPatch, UvHit};
 use super::{Hit, Ray, quadric};
 use crate::movement::Movement;
 
@@ -15,6 +16,8 @@ pub(super) struct Scene {
     pub(super) packets: Vec<Packet8>,
     pub(super) quadrics: Vec<quadric::PreparedQuadric>,
     pub(super) patches: Vec<PreparedPatch>,
+    pub(super) curves: Vec<CurveSegment>,
+    pub(super) curve_parts: Vec<CurvePart>,
     pub(super) placements: Vec<Placement>,
     /// How those move that do.
     pub(super) movements: Vec<Movement>,
@@ -220,7 +223,25 @@ pub(super) fn child_of(entry: u64) -> Child {
     Child((entry & 0xffff_ffff) as u32)
 }
 
-/// Triangles, quadrics and patches.
+impl Scene {
+    /// The hit of a patch or a part of a curve, with its primitive.
+    ///
+    /// Cold, so that the traversal keeps its registers for triangles.
+    #[cold]
+    #[inline(never)]
+    fn uv_hit(&self, leaf: Child, frame: &RayFrame) -> (UvHit, u32) {
+        if leaf.kind() == ChildKind::CurvePart {
+            let part = &self.curve_parts[leaf.part_index()];
+            let curve = &self.curves[part.curve as usize];
+            (curve.hit(part.part, &frame.ray), part.primitive)
+        } else {
+            let patch = &self.patches[leaf.index()];
+            (patch.hit(&frame.ray, frame.axes), patch.primitive)
+        }
+    }
+}
+
+/// Triangles, quadrics, patches and curves.
 pub(super) struct GroupLeaves<'a> {
     pub(super) scene: &'a Scene,
     pub(super) instance: u32,
@@ -265,14 +286,13 @@ impl Leaves for GroupLeaves<'_> {
                     instance,
                 })
         } else {
-            let patch = &self.scene.patches[leaf.index()];
-            let hit = patch.hit(&frame.ray, frame.axes);
+            let (hit, primitive) = self.scene.uv_hit(leaf, frame);
             hit.t > 0.0
                 && best.offer(Hit {
                     t: hit.t,
                     u: hit.u,
                     v: hit.v,
-                    primitive: patch.primitive,
+                    primitive,
                     instance,
                 })
         }

@@ -88,7 +88,7 @@ impl PreparedScene {
             missing.push("camera lenses".to_owned());
         }
         if self.geometry.has_exact_shapes() {
-            let what = "parts of quadrics or bilinear patches, prepared without `triangulate_exact_shapes`";
+            let what = "parts of quadrics, bilinear patches or curves, prepared without `triangulate_exact_shapes`";
             missing.push(what.to_owned());
         }
         if self.lights.has_portals() {

@@ -7,29 +7,30 @@ use glam::{DMat3, DMat4};
 use rayon::prelude::*;
 use specula_bsdf::Rgb;
 use specula_scene::scene::{
-    ColourParam, FloatParam, Geometry as SceneGeometry, Material, MaterialKind, Mesh,
-    ObjectInstance, PatchMesh, Scene, Shape,
+    ColourParam, CurveKind, CurveMesh, FloatParam, Geometry as SceneGeometry, Material,
+    MaterialKind, Mesh, ObjectInstance, PatchMesh, Scene, Shape,
 };
 
 use super::{GroupData, HairShape, NONE, PlacedQuadric, ShapeRecord, parallelogram};
-use crate::accel::QuadricShape;
-use crate::convert::{Affine, id, narrow3, normal_matrix, transform_point};
+use crate::accel::{CurveSegment, CurveShape, QuadricShape};
+use crate::convert::{Affine, id, narrow, narrow3, normal_matrix, transform_point};
 use crate::movement::Movement;
 use crate::texture::Textures;
 
 /// No emission.
 const BLACK: ColourParam = ColourParam::Value(Rgb::BLACK);
 
-/// Shapes that are one group: those that stand still, or that move alike.
+/// Shapes that are one group: those that stand still, or that move alike, or curves that one transform distorts or
+/// mirrors.
 pub(super) struct Part {
     pub(super) shapes: Vec<Shape>,
     /// From the group's space to that of the shapes' object, or of the world.
     pub(super) movement: Movement,
 }
 
-/// The still shapes first, also where there are none, then those that move, by their motion.
+/// The still shapes first, also where there are none, then those with a space of their own, by that and its motion.
 fn parts(shapes: Vec<Shape>) -> Vec<Part> {
-    let (moving, still): (Vec<_>, Vec<_>) = shapes.into_iter().partition(|s| s.motion.is_some());
+    let (moving, still): (Vec<_>, Vec<_>) = shapes.into_iter().partition(has_own_space);
     let mut parts = vec![Part {
         shapes: still,
         movement: Movement::default(),
@@ -56,11 +57,34 @@ fn parts(shapes: Vec<Shape>) -> Vec<Part> {
     parts
 }
 
+/// Whether a shape moves, or is of curves that are none any more in the space around.
+pub(crate) fn has_own_space(shape: &Shape) -> bool {
+    let is_curve = matches!(shape.geometry, SceneGeometry::Curves(_));
+    shape.motion.is_some() || is_curve && !keeps_curves(&shape.to_world)
+}
+
+/// Whether a transform keeps angles, up to rounding, and the sides of curves, to which coordinates grow.
+fn keeps_curves(m: &DMat4) -> bool {
+    const TOLERANCE: f64 = 1e-5;
+    let is_mirroring = mirrors(m);
+    let m = DMat3::from_mat4(*m);
+    let square = scale(&m).powi(2);
+    let error = m.transpose() * m - DMat3::from_diagonal(glam::DVec3::splat(square));
+    let largest = error.to_cols_array().into_iter().map(f64::abs);
+    !is_mirroring && largest.fold(0.0, f64::max) <= TOLERANCE * square
+}
+
+/// By which factor a similarity scales.
+fn scale(m: &DMat3) -> f64 {
+    m.determinant().abs().cbrt()
+}
+
 /// Bakes a scene's geometry. Every mesh is freed once nothing else needs it.
 pub(super) struct Baker<'a> {
     textures: &'a Textures,
     meshes: &'a mut [Mesh],
     patch_meshes: &'a [PatchMesh],
+    curve_meshes: &'a [CurveMesh],
     /// How many shapes are still to be baked from every mesh.
     uses: Vec<usize>,
     pub(super) world: Vec<Part>,
@@ -80,6 +104,7 @@ impl<'a> Baker<'a> {
             materials,
             meshes,
             patch_meshes,
+            curve_meshes,
             shapes,
             objects,
             instances,
@@ -95,10 +120,11 @@ impl<'a> Baker<'a> {
                 (!is_interface(material) || material.bounds_absorption())
                     && !matches!(s.alpha, FloatParam::Value(a) if a <= 0.0)
             });
-            // Indices of triangles come first and those of patches last, whatever the order of the shapes.
+            // Indices of triangles come first and those of curves last, whatever the order of the shapes.
             shapes.sort_by_key(|s| match s.geometry {
                 SceneGeometry::Mesh(_) => 0,
                 SceneGeometry::Patches(_) => 2,
+                SceneGeometry::Curves(_) => 3,
                 _ => 1,
             });
             shapes
@@ -134,6 +160,7 @@ impl<'a> Baker<'a> {
             textures,
             meshes,
             patch_meshes,
+            curve_meshes,
             uses,
             world: parts(world),
             objects: objects.into_iter().map(parts).collect(),
@@ -166,13 +193,14 @@ impl<'a> Baker<'a> {
                     true
                 }
                 SceneGeometry::Patches(id) => group.add_patches(&self.patch_meshes[id.0], shape),
+                SceneGeometry::Curves(id) => group.add_curves(&self.curve_meshes[id.0], shape),
             };
             let radiance = shape
                 .emission
                 .map_or(BLACK, |e| self.textures.fold_colour(e.radiance));
             let emits = !matches!(radiance, ColourParam::Value(c) if c.is_black());
             let first = group.shape_of.len();
-            let count = group.triangles.len() + group.quadrics.len() + group.patches.len();
+            let count = group.primitive_count();
             group.shape_of.resize(count, record);
             if emits {
                 group.light_of.resize(first, NONE);
@@ -193,7 +221,7 @@ impl<'a> Baker<'a> {
                 is_interface: self.interfaces[shape.material.0],
                 hair,
                 has_uvs,
-                is_inside_out: mirrors(&shape.to_world) != shape.reverse_orientation,
+                is_inside_out: is_inside_out(shape),
             });
         }
         group
@@ -205,7 +233,8 @@ impl<'a> Baker<'a> {
             SceneGeometry::Sphere { .. }
             | SceneGeometry::Disk { .. }
             | SceneGeometry::QuadricPart(_)
-            | SceneGeometry::Patches(_) => false,
+            | SceneGeometry::Patches(_)
+            | SceneGeometry::Curves(_) => false,
         };
         self.hair[shape.material.0].then_some(match is_fibre {
             true => HairShape::Fibre,
@@ -296,6 +325,42 @@ impl GroupData {
         mesh.uvs.len() == mesh.positions.len()
     }
 
+    /// Adds segments of curves, which their transform keeps; returns that they have texture coordinates.
+    fn add_curves(&mut self, curves: &CurveMesh, shape: &Shape) -> bool {
+        let m = &shape.to_world;
+        let scale = narrow(scale(&DMat3::from_mat4(*m)));
+        let normals = normal_matrix(m);
+        let turned = |n: [f32; 3]| {
+            let n = normals * glam::DVec3::from(n.map(f64::from));
+            narrow3(n.normalize_or(glam::DVec3::Z)).to_array()
+        };
+        let segments = curves
+            .segments
+            .iter()
+            .zip(&curves.width_at_ends)
+            .enumerate();
+        self.curves
+            .extend(segments.map(|(i, (controls, width_at_ends))| {
+                let controls = controls.map(|p| transform_point(m, p));
+                let shape = match (curves.kind, curves.normals.get(i)) {
+                    (CurveKind::Ribbon, Some(ends)) => CurveShape::Ribbon(ends.map(turned)),
+                    (CurveKind::Cylinder, _) => CurveShape::Cylinder,
+                    (CurveKind::Flat | CurveKind::Ribbon, _) => CurveShape::Flat,
+                };
+                CurveSegment {
+                    controls,
+                    width_at_ends: width_at_ends.map(|w| scale * w),
+                    shape,
+                }
+            }));
+        true
+    }
+
+    /// How many primitives there are.
+    fn primitive_count(&self) -> usize {
+        self.triangles.len() + self.quadrics.len() + self.patches.len() + self.curves.len()
+    }
+
     fn add_mesh(&mut self, mesh: &Mesh, shape: &Shape) {
         let m = &shape.to_world;
         let first = self.add_vertices([&mesh.positions, &mesh.normals], &mesh.uvs, shape);
@@ -369,6 +434,14 @@ fn add_lights(group: &mut GroupData, primitives: Range<usize>, whole: bool) {
                 at += 1;
             }
         }
+    }
+}
+
+/// As of [`ShapeRecord`].
+fn is_inside_out(shape: &Shape) -> bool {
+    match shape.geometry {
+        SceneGeometry::Curves(_) => shape.reverse_orientation,
+        _ => mirrors(&shape.to_world) != shape.reverse_orientation,
     }
 }
 

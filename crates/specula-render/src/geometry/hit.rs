@@ -60,7 +60,7 @@ pub(crate) struct PrimitiveLocation {
     pub(crate) instance: u32,
     /// Index within the group.
     pub(crate) primitive: u32,
-    /// Barycentric weights of a triangle's second and third vertex; the coordinates on a patch.
+    /// Barycentric weights of a triangle's second and third vertex; the coordinates on a patch or a curve.
     pub(crate) weights: [f32; 2],
     /// When it is there, in exposures; for what moves only.
     pub(crate) time: f32,
@@ -114,7 +114,7 @@ impl Geometry {
     pub(crate) fn surface(&self, ray: &Ray, hit: &Hit, time: f32) -> Surface {
         let at = PrimitiveLocation::of(hit, time);
         // The point along the ray is only as exact as the ray is long: quadrics project it.
-        self.surface_at(&at, || ray.origin + ray.direction * hit.t)
+        self.surface_at(&at, || [ray.origin + ray.direction * hit.t, ray.direction])
     }
 
     /// The triangle at a hit; `None` for other shapes, and in instances with a transform.
@@ -176,12 +176,13 @@ impl Geometry {
 
     /// The surface at a point of a primitive.
     ///
-    /// * `near`: the point in the world, roughly; for quadrics only.
+    /// * `near`: the point in the world, roughly, for quadrics, and the direction of the ray, for curves; 0 where there
+    ///   is none of these.
     #[inline]
     pub(crate) fn surface_at(
         &self,
         at: &PrimitiveLocation,
-        near: impl FnOnce() -> Vec3<f32>,
+        near: impl FnOnce() -> [Vec3<f32>; 2],
     ) -> Surface {
         let placement = &self.placements[at.instance as usize];
         let group = &self.groups[placement.group as usize];
@@ -201,11 +202,19 @@ impl Geometry {
             let has_uvs = self.shapes[shape as usize].has_uvs;
             group.triangle_surface(at, has_uvs)
         } else if let Some(quadric) = group.quadrics.get(primitive - triangles) {
-            let near = near();
+            let [near, _] = near();
             let near = pose.map_or(near, |pose| pose.to_group_point(near));
             quadric.surface(near)
         } else {
-            group.patch_surface(at, &self.shapes[shape as usize])
+            let shape = &self.shapes[shape as usize];
+            match group.curve_at(at.primitive) {
+                None => group.patch_surface(at, shape),
+                Some(curve) => {
+                    let [_, direction] = near();
+                    let direction = pose.map_or(direction, |p| p.to_group_vector(direction));
+                    curve.surface(at.weights, direction, shape.is_inside_out)
+                }
+            }
         };
         surface.shape = shape;
         surface.at = *at;
@@ -237,6 +246,25 @@ impl super::Placement {
 }
 
 impl super::Pose {
+    /// A world vector in the group's space.
+    #[inline]
+    pub(super) fn to_group_vector(&self, v: Vec3<f32>) -> Vec3<f32> {
+        crate::convert::narrow3(self.inverse.transform_vector3(crate::convert::widen3(v)))
+    }
+
+    /// The position and the geometric normal of a surface in the group's space.
+    #[inline]
+    pub(super) fn to_group_surface(&self, surface: &Surface) -> [Vec3<f32>; 2] {
+        use crate::convert::{narrow3, widen3};
+        // Normals move as planes do.
+        let linear = glam::DMat3::from_mat4(self.inverse).inverse().transpose();
+        let normal = narrow3(linear * widen3(surface.ng));
+        [
+            self.to_group_point(surface.position),
+            unit_or(normal, surface.ng),
+        ]
+    }
+
     /// A world point in the group's space.
     #[inline]
     pub(super) fn to_group_point(&self, p: Vec3<f32>) -> Vec3<f32> {

@@ -37,7 +37,17 @@ impl Geometry {
             };
             quadric.partials(near)
         } else {
-            group.patch_partials(at, &self.shapes[surface.shape as usize])
+            let shape = &self.shapes[surface.shape as usize];
+            match group.curve_at(at.primitive) {
+                None => group.patch_partials(at, shape),
+                Some(curve) => {
+                    let [position, normal] = match placement.identity {
+                        true => [surface.position, surface.ng],
+                        false => pose.to_group_surface(surface),
+                    };
+                    curve.partials(at.weights, [position, normal], shape.is_inside_out)
+                }
+            }
         };
         if placement.identity {
             return partials;

@@ -127,7 +127,7 @@ impl Textured {
             // Lights do not move.
             time: 0.0,
         };
-        geometry.surface_at(&at, || point)
+        geometry.surface_at(&at, || [point, Vec3::ZERO])
     }
 
     /// Samples a point of the light, as seen from `p`; returns it with its radiance.

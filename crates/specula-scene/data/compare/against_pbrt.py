@@ -38,6 +38,7 @@ SCENES = [
     ("features/motion", 160, 120, 1024, 1024),
     ("features/flat", 160, 120, 512, 512),
     ("features/exact-shapes", 192, 128, 2048, 2048),
+    ("features/curves", 192, 128, 1024, 1024),
     ("features/hair", 160, 120, 512, 512),
 ]
 RUNS = 4

@@ -19,7 +19,7 @@ use crate::faults::{Fault, Faults};
 use crate::num::{f32_of, parsed_f32, shortened};
 use crate::read_file::Files;
 use crate::scene::Mesh;
-use crate::tube::{self, Bezier, circumradius, cubic_spline, join_rows};
+use crate::scene::tube::{self, Bezier, circumradius, cubic_spline, join_rows};
 
 /// Sides of tubes, cones and balls.
 const SIDES: u32 = 12;

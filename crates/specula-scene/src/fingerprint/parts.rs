@@ -8,13 +8,13 @@ use super::BlockHasher;
 use crate::energy::Energy;
 use crate::image::{Image, Pixels};
 use crate::scene::{
-    Bump, BumpRules, Camera, Channel, CoatMedium, ColourParam, ConductorFresnel, Emission,
-    EnvironmentMapping, Film, Filter, FloatParam, Geometry, GltfMaterial, HairMaterial,
-    HairPigment, ImageId, ImageProjection, Interpolation, LensInterface, LensSystem, Light,
-    Material, MaterialId, MaterialKind, MeasuredId, Mesh, MeshId, MicrofacetDistribution, Motion,
-    NoiseKind, Object, ObjectId, ObjectInstance, PatchMesh, PatchMeshId, PrincipledMaterial,
-    Profile, Projection, QuadricPart, Roughness, RoughnessMapping, Shape, SpotFalloff, StopPicture,
-    Texture, TextureId, TextureMapping, UvMapping, Wrap,
+    Bump, BumpRules, Camera, Channel, CoatMedium, ColourParam, ConductorFresnel, CurveKind,
+    CurveMesh, CurveMeshId, Emission, EnvironmentMapping, Film, Filter, FloatParam, Geometry,
+    GltfMaterial, HairMaterial, HairPigment, ImageId, ImageProjection, Interpolation,
+    LensInterface, LensSystem, Light, Material, MaterialId, MaterialKind, MeasuredId, Mesh, MeshId,
+    MicrofacetDistribution, Motion, NoiseKind, Object, ObjectId, ObjectInstance, PatchMesh,
+    PatchMeshId, PrincipledMaterial, Profile, Projection, QuadricPart, Roughness, RoughnessMapping,
+    Shape, SpotFalloff, StopPicture, Texture, TextureId, TextureMapping, UvMapping, Wrap,
 };
 
 /// A part of a scene.
@@ -161,6 +161,7 @@ fields!(MaterialId { 0 });
 fields!(MeasuredId { 0 });
 fields!(MeshId { 0 });
 fields!(PatchMeshId { 0 });
+fields!(CurveMeshId { 0 });
 fields!(ObjectId { 0 });
 
 fields!(Camera {
@@ -217,7 +218,20 @@ fields!(PatchMesh {
     positions,
     normals,
     uvs,
-    patches
+    patches,
+    are_polygons
+});
+variants!(CurveKind {
+    0 => Flat,
+    1 => Cylinder,
+    2 => Ribbon,
+});
+fields!(CurveMesh {
+    kind,
+    segments,
+    width_at_ends,
+    normals,
+    is_fibre
 });
 variants!(Geometry {
     0 => Mesh(id),
@@ -225,6 +239,7 @@ variants!(Geometry {
     2 => Disk { radius, height },
     3 => QuadricPart(part),
     4 => Patches(id),
+    5 => Curves(id),
 });
 variants!(QuadricPart {
     0 => Sphere { radius, z, phi_max },

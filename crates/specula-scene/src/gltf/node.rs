@@ -19,6 +19,7 @@ use crate::scene::{
 };
 use crate::stage::{self, AddedLight};
 use crate::transform::{check_transform, is_invertible, mirrors};
+use crate::triangulate::ExactMeshes;
 use crate::{Exposure, Loaded, bounds};
 
 /// Width of pictures whose file gives no size.
@@ -113,7 +114,7 @@ impl Reader<'_> {
         found: &mut VisitedNodes<'_>,
     ) -> Result<(), SceneError> {
         let own = parts.iter().map(|(id, _)| Geometry::Mesh(*id));
-        let own = own.map(|g| bounds::of_geometry(&self.meshes, &[], &g));
+        let own = own.map(|g| bounds::of_geometry(&self.meshes, ExactMeshes::default(), &g));
         let own = own.fold(bounds::BoundingBox::EMPTY, bounds::BoundingBox::union);
         let (places, flat): (Vec<_>, Vec<_>) =
             places.into_iter().partition(|p| is_invertible(&p.to_world));
@@ -261,7 +262,7 @@ impl Reader<'_> {
     ) -> Result<(), SceneError> {
         for part in parts {
             let shape = shape(*part, *to_world);
-            let pressed = press.shape(&shape, to_world, &mut self.meshes, &[]);
+            let pressed = press.shape(&shape, to_world, &mut self.meshes, ExactMeshes::default());
             let pressed =
                 pressed.map_err(|m| self.error(ErrorKind::Limit, format!("nodes[{node}]: {m}")))?;
             self.warn(format!("nodes[{node}]: {}", pressed.message()));

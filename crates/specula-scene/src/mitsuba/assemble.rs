@@ -14,6 +14,7 @@ use crate::problems::{NoteKind, is_dark};
 use crate::read_file::Files;
 use crate::scene::{Camera, Film, Light, Mesh, Object, ObjectInstance, Scene, Settings, Shape};
 use crate::transform::is_invertible;
+use crate::triangulate::ExactMeshes;
 use crate::{Energy, Format, Loaded, stage};
 
 /// Warning about a scene without light.
@@ -203,7 +204,8 @@ fn build(context: &mut Context, shapes: Shapes) -> Result<BuiltShapes, SceneErro
         objects.push(Object { name, shapes });
     }
     for (shape, place) in &finished {
-        let reach = bounds::of_geometry(&meshes, &[], &shape.geometry).transformed(&shape.to_world);
+        let reach = bounds::of_geometry(&meshes, ExactMeshes::default(), &shape.geometry)
+            .transformed(&shape.to_world);
         if reach.farthest() > FARTHEST {
             context.problems.record(too_far(place))?;
         }
@@ -248,15 +250,15 @@ fn pressed(
     let mut left = Vec::with_capacity(shapes.len());
     for (shape, place) in shapes {
         if is_invertible(&shape.to_world) {
-            let reach =
-                bounds::of_geometry(meshes, &[], &shape.geometry).transformed(&shape.to_world);
+            let reach = bounds::of_geometry(meshes, ExactMeshes::default(), &shape.geometry)
+                .transformed(&shape.to_world);
             match reach.is_speck() {
                 true => context.warn(&place, bounds::SPECK),
                 false => left.push((shape, place)),
             }
             continue;
         }
-        let pressed = press.shape(&shape, &shape.to_world, meshes, &[]);
+        let pressed = press.shape(&shape, &shape.to_world, meshes, ExactMeshes::default());
         let pressed = pressed.map_err(|m| SceneError::new(ErrorKind::Limit, &place, m))?;
         context.warn(&place, pressed.message());
         if let Pressed::Flat(shape) = pressed {

@@ -13,7 +13,7 @@ use super::motion::Exposure;
 use super::shape::{self, ShapeEntity};
 use super::state::MaterialUse;
 use super::{camera, light, material};
-use crate::bounds::{self, FARTHEST};
+use crate::bounds::{self, BoundingBox, FARTHEST};
 use crate::error::{ErrorKind, Place, SceneError, Warning};
 use crate::mesh;
 use crate::num::shorten;
@@ -67,14 +67,13 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         exposure,
     };
     let mut geometries = geometries.into_iter();
-    let mut objects = Vec::new();
-    for object in &reader.objects {
-        let shapes = builder.shapes(&object.shapes, &mut geometries)?;
-        objects.push(Object {
-            name: object.name.clone(),
-            shapes,
-        });
-    }
+    let objects = (reader.objects.iter())
+        .map(|object| {
+            let shapes = builder.shapes(&object.shapes, &mut geometries)?;
+            let name = object.name.clone();
+            Ok(Object { name, shapes })
+        })
+        .collect::<Result<Vec<_>, SceneError>>()?;
     let mut shapes = builder.shapes(&reader.shapes, &mut geometries)?;
     let (instances, pressed) = builder.instances(&reader.instances, &objects)?;
     shapes.extend(pressed);
@@ -96,6 +95,7 @@ pub(super) fn assemble(reader: Reader) -> Result<Loaded, SceneError> {
         measured: std::mem::take(&mut context.measured),
         meshes: meshes.triangles,
         patch_meshes: meshes.patches,
+        curve_meshes: meshes.curves,
         shapes,
         objects,
         instances,
@@ -409,16 +409,17 @@ impl Builder<'_> {
         let mut shapes = Vec::with_capacity(entities.len());
         for (shape, geometry) in entities.iter().zip(geometries) {
             let built = self.shape(shape, &geometry);
-            shapes.extend(shape.entity.or(built, || None)?);
+            shapes.extend(shape.entity.or(built, Vec::new)?);
         }
         Ok(shapes)
     }
 
+    /// What a shape of the file is: two where its mesh has triangles and patches, none where it is left out.
     fn shape(
         &mut self,
         shape: &ShapeEntity,
         read: &ShapeGeometry,
-    ) -> Result<Option<Shape>, SceneError> {
+    ) -> Result<Vec<Shape>, SceneError> {
         // Its other faults count even where it is left out.
         let found = self.materials.id(&shape.material).map(Some);
         let mut material = match self.context.problems.or(found, || None)? {
@@ -434,9 +435,11 @@ impl Builder<'_> {
             .float_from_zero_or_none(&shape.entity.params, "alpha")?
             .or(self.materials.opacity(&shape.material))
             .unwrap_or(FloatParam::Value(1.0));
-        let Some(geometry) = read.geometry else {
-            return Ok(None);
-        };
+        let geometries = [read.geometry, read.beside].into_iter().flatten();
+        let geometries: Vec<Geometry> = geometries.collect();
+        if geometries.is_empty() {
+            return Ok(Vec::new());
+        }
         self.context.warn_unused(&shape.entity.params);
         let place = &shape.entity.place;
         let (to_world, motion) = self.exposure.place(
@@ -445,8 +448,10 @@ impl Builder<'_> {
             shape.to_world,
             shape.end,
         );
-        let Meshes { triangles, patches } = &*self.meshes;
-        let reach = bounds::of_geometry(triangles, patches, &geometry);
+        let (triangles, exact) = self.meshes.split();
+        let reach = (geometries.iter())
+            .map(|g| bounds::of_geometry(triangles, exact, g))
+            .fold(BoundingBox::EMPTY, BoundingBox::union);
         let reach = reach.placed(&to_world, motion.as_ref());
         if reach.farthest() > FARTHEST {
             let message = format!("the shape reaches beyond {FARTHEST:e} from the origin");
@@ -454,7 +459,7 @@ impl Builder<'_> {
         }
         if reach.is_speck() && is_invertible(&to_world) {
             self.context.warn(place, bounds::SPECK);
-            return Ok(None);
+            return Ok(Vec::new());
         }
         let mut emission = None;
         if let Some(entity) = &shape.area_light {
@@ -462,10 +467,10 @@ impl Builder<'_> {
                 let message = "an \"interface\" emits nothing, as in pbrt-v4";
                 self.context.warn(place, message);
             } else {
-                emission = self.emission(entity, shape, read, &geometry)?;
+                emission = self.emission(entity, shape, read.pieces, &geometries)?;
             }
         }
-        let shape = Shape {
+        let made = geometries.into_iter().map(|geometry| Shape {
             geometry,
             to_world,
             motion,
@@ -474,15 +479,20 @@ impl Builder<'_> {
             // What is within a fibre does not depend on it.
             reverse_orientation: shape.reverse_orientation && !self.is_fibre(&geometry),
             alpha,
-        };
+        });
+        let made: Vec<Shape> = made.collect();
         if is_invertible(&to_world) {
-            return Ok(Some(shape));
+            return Ok(made);
         }
-        self.pressed(&shape, &to_world, place)
+        let mut flat = Vec::new();
+        for shape in &made {
+            flat.extend(self.pressed(shape, &to_world, place)?);
+        }
+        Ok(flat)
     }
 
     fn is_fibre(&self, geometry: &Geometry) -> bool {
-        matches!(geometry, Geometry::Mesh(id) if self.meshes.triangles[id.0].is_fibre)
+        matches!(geometry, Geometry::Curves(id) if self.meshes.curves[id.0].is_fibre)
     }
 
     /// A shape under a transform that cannot be inverted, if area is left of it.
@@ -492,8 +502,8 @@ impl Builder<'_> {
         to_world: &DMat4,
         place: &Place,
     ) -> Result<Option<Shape>, SceneError> {
-        let Meshes { triangles, patches } = &mut *self.meshes;
-        let pressed = self.press.shape(shape, to_world, triangles, patches);
+        let (triangles, exact) = self.meshes.split();
+        let pressed = self.press.shape(shape, to_world, triangles, exact);
         let pressed = pressed.map_err(|m| SceneError::new(ErrorKind::Limit, place, m))?;
         self.context.warn(place, pressed.message());
         Ok(match pressed {
@@ -526,20 +536,25 @@ impl Builder<'_> {
     }
 
     /// The light of a shape.
+    ///
+    /// * `pieces`: as of [`ShapeGeometry`].
     fn emission(
         &mut self,
         entity: &Entity,
         shape: &ShapeEntity,
-        read: &ShapeGeometry,
-        geometry: &Geometry,
+        pieces: Option<usize>,
+        geometries: &[Geometry],
     ) -> Result<Option<Emission>, SceneError> {
-        let area = self.area(geometry, shape)?;
+        let areas = geometries.iter().map(|g| self.area(g, shape));
+        let area = areas.sum::<Result<f64, SceneError>>()?;
         let triangles = |id: MeshId| self.meshes.triangles[id.0].triangles.len();
-        let pieces = match *geometry {
-            Geometry::Mesh(id) => read.pieces.unwrap_or_else(|| triangles(id)),
+        let pieces_of = |geometry: &Geometry| match *geometry {
+            Geometry::Mesh(id) => pieces.unwrap_or_else(|| triangles(id)),
             Geometry::Patches(id) => self.meshes.patches[id.0].patches.len(),
+            Geometry::Curves(id) => self.meshes.curves[id.0].segments.len(),
             Geometry::Sphere { .. } | Geometry::Disk { .. } | Geometry::QuadricPart(_) => 1,
         };
+        let pieces = geometries.iter().map(pieces_of).sum();
         let read = light::area(&mut self.context, entity, area, pieces).map(Some);
         let emission = entity.or(read, || None)?;
         let is_dark = emission.is_some_and(|e| e.radiance == ColourParam::Value(Rgb::BLACK));
@@ -547,19 +562,26 @@ impl Builder<'_> {
         Ok(emission)
     }
 
-    /// Area of a shape that emits; quadrics before their transform, as pbrt-v4 takes it.
+    /// Area of a shape that emits; quadrics before their transform, as pbrt-v4 takes it. Patches and curves that emit
+    /// become triangles.
     fn area(&self, geometry: &Geometry, shape: &ShapeEntity) -> Result<f64, SceneError> {
         use std::f64::consts::PI;
+        let limits = self.context.files.limits();
+        let bounded = |triangles: u64| {
+            shape::bounded((), triangles, limits)
+                .map_err(|m| SceneError::new(ErrorKind::Mesh, &shape.entity.place, m))
+        };
         Ok(match *geometry {
             Geometry::Mesh(id) => mesh::area(&self.meshes.triangles[id.0], &shape.to_world),
             Geometry::Patches(id) => {
-                // Those that emit become triangles.
                 let patches = &self.meshes.patches[id.0];
-                let limits = self.context.files.limits();
-                let place = &shape.entity.place;
-                let too_many = |m: String| SceneError::new(ErrorKind::Mesh, place, m);
-                shape::bounded((), patches.triangle_count(), limits).map_err(too_many)?;
+                bounded(patches.triangle_count())?;
                 mesh::area(&patches.mesh(), &shape.to_world)
+            }
+            Geometry::Curves(id) => {
+                let curves = &self.meshes.curves[id.0];
+                bounded(curves.triangle_count())?;
+                mesh::area(&curves.mesh(), &shape.to_world)
             }
             Geometry::Sphere { radius } => 4.0 * PI * f64::from(radius).powi(2),
             Geometry::Disk { radius, .. } => PI * f64::from(radius).powi(2),

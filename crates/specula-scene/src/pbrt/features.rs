@@ -61,7 +61,11 @@ pub(crate) const FEATURES: &[Feature] = &[
     full("directive", "Translate"),
     full("directive", "WorldBegin"),
     full("shape", "trianglemesh"),
-    full("shape", "plymesh"),
+    near(
+        "shape",
+        "plymesh",
+        "exact; quadrilaterals that emit and those on the GPU: two triangles",
+    ),
     full("shape", "sphere"),
     near(
         "shape",
@@ -88,17 +92,17 @@ pub(crate) const FEATURES: &[Feature] = &[
     near(
         "shape",
         "curve: flat",
-        "tubes of 4 sides, of hair 12, and the same width; centre line within 1/20 of it",
+        "exact; those that emit and those on the GPU: tubes of 4 sides, of hair 12; centre line within 1/20 of the width",
     ),
     near(
         "shape",
         "curve: cylinder",
-        "tubes of 12 sides and the same width; centre line within 1/20 of it",
+        "exact; those that emit and those on the GPU: tubes of 12 sides; centre line within 1/20 of the width",
     ),
     near(
         "shape",
         "curve: ribbon",
-        "strips; centre line within 1/20 of the width",
+        "exact; those that emit and those on the GPU: strips; centre line within 1/20 of the width",
     ),
     full("shape parameter", "alpha"),
     near(

@@ -13,13 +13,16 @@ use crate::image::Image;
 use crate::mesh::Cleaning;
 use crate::ply;
 use crate::read_file::Files;
-use crate::scene::{Geometry, Mesh, MeshId, PatchMesh, PatchMeshId};
+use crate::scene::{CurveMesh, CurveMeshId, Geometry, Mesh, MeshId, PatchMesh, PatchMeshId};
+use crate::triangulate::ExactMeshes;
 
 /// Geometry of a shape, with what its light needs to know.
 #[derive(Clone, Copy)]
 pub(super) struct ShapeGeometry {
     /// `None` where the shape is left out.
     pub(super) geometry: Option<Geometry>,
+    /// Quadrilaterals beside triangles, of the same shape.
+    pub(super) beside: Option<Geometry>,
     /// How many shapes pbrt-v4 makes of it; `None` for one per triangle.
     pub(super) pieces: Option<usize>,
 }
@@ -94,6 +97,7 @@ impl Jobs {
 pub(super) struct Meshes {
     pub(super) triangles: Vec<Mesh>,
     pub(super) patches: Vec<PatchMesh>,
+    pub(super) curves: Vec<CurveMesh>,
 }
 
 impl Meshes {
@@ -107,7 +111,20 @@ impl Meshes {
                 self.patches.push(mesh);
                 Geometry::Patches(PatchMeshId(self.patches.len() - 1))
             }
+            Built::Curves(curves) => {
+                self.curves.push(curves);
+                Geometry::Curves(CurveMeshId(self.curves.len() - 1))
+            }
         }
+    }
+
+    /// Triangles, and what exact shapes refer to.
+    pub(super) fn split(&mut self) -> (&mut Vec<Mesh>, ExactMeshes<'_>) {
+        let exact = ExactMeshes {
+            patches: &self.patches,
+            curves: &self.curves,
+        };
+        (&mut self.triangles, exact)
     }
 }
 
@@ -182,19 +199,23 @@ pub(super) fn read(
     let mut meshes = Meshes::default();
     let mut ids = Vec::new();
     for (result, (place, path)) in results.into_iter().zip(&places) {
-        let (made, cleaning) = match result {
-            Ok(made) => made,
+        let parts = match result {
+            Ok(parts) => parts,
             Err(faults) => {
                 for fault in faults {
                     let error = broken(context, place, path.as_deref(), &fault);
                     context.problems.record(error)?;
                 }
-                ids.push(None);
+                ids.push([None; 2]);
                 continue;
             }
         };
-        report(context, place, &cleaning, made.is_empty());
-        ids.push((!made.is_empty()).then(|| meshes.add(made)));
+        let mut found = [None; 2];
+        for (id, (made, cleaning)) in found.iter_mut().zip(parts) {
+            report(context, place, &cleaning, made.is_empty());
+            *id = (!made.is_empty()).then(|| meshes.add(made));
+        }
+        ids.push(found);
     }
     Ok((geometries(slots, &ids), meshes))
 }
@@ -202,15 +223,19 @@ pub(super) fn read(
 /// The geometries of shapes, from those of the jobs.
 fn geometries(
     slots: Vec<(Slot, Option<usize>)>,
-    of_jobs: &[Option<Geometry>],
+    of_jobs: &[[Option<Geometry>; 2]],
 ) -> Vec<ShapeGeometry> {
     let resolved = slots.into_iter().map(|(slot, pieces)| {
-        let geometry = match slot {
+        let [first, second] = match slot {
             Slot::Job(i) => of_jobs[i],
-            Slot::Ready(geometry) => Some(geometry),
-            Slot::Nothing => None,
+            Slot::Ready(geometry) => [Some(geometry), None],
+            Slot::Nothing => [None; 2],
         };
-        ShapeGeometry { geometry, pieces }
+        ShapeGeometry {
+            geometry: first.or(second),
+            beside: first.and(second),
+            pieces,
+        }
     });
     resolved.collect()
 }
@@ -224,28 +249,39 @@ fn broken(context: &Context, place: &Place, path: Option<&Path>, fault: &Fault) 
     SceneError::new(ErrorKind::Mesh, place, message).if_missing(context.search.hint(path), path)
 }
 
+/// Makes a mesh, or of a file with quadrilaterals that are no parallelograms two, or patches alone.
+///
 /// * `collects`: whether to go on after a mistake, as in a check.
 fn make(
     source: MeshSource,
     files: &Files,
     collects: bool,
-) -> Result<(Built, Cleaning), Vec<Fault>> {
+) -> Result<Vec<(Built, Cleaning)>, Vec<Fault>> {
     let made = match source {
-        MeshSource::Mesh(mesh) => Built::Mesh(mesh),
-        MeshSource::Recipe(recipe) => recipe.build(files.limits()).map_err(|m| vec![m.into()])?,
+        MeshSource::Mesh(mesh) => vec![Built::Mesh(mesh)],
+        MeshSource::Recipe(recipe) => {
+            vec![recipe.build(files.limits()).map_err(|m| vec![m.into()])?]
+        }
         MeshSource::File(path) => {
-            let mut mesh = ply::read(&path, files, collects)?;
+            let mut polygons = ply::read_polygons(&path, files, collects)?;
             // pbrt-v4 ignores colours of vertices.
-            mesh.colours = Vec::new();
-            Built::Mesh(mesh)
+            polygons.mesh.colours = Vec::new();
+            match polygons.split() {
+                (mesh, None) => vec![Built::Mesh(mesh)],
+                (mesh, Some(patches)) if mesh.triangles.is_empty() => vec![Built::Patches(patches)],
+                (mesh, Some(patches)) => vec![Built::Mesh(mesh), Built::Patches(patches)],
+            }
         }
     };
-    made.clean(collects)
+    made.into_iter().map(|m| m.clean(collects)).collect()
 }
 
 fn report(context: &mut Context, place: &Place, cleaning: &Cleaning, empty: bool) {
     if empty {
         let message = match (cleaning.dropped_triangles, cleaning.dropped_patches) {
+            (0, 0) if cleaning.dropped_segments > 0 => {
+                "no segment of the curve has a length and a width: it is left out".to_owned()
+            }
             (0, 0) => "the mesh has no triangles: it is left out".to_owned(),
             (0, n) => format!("all {n} patches of the mesh have no area: it is left out"),
             (n, _) => format!("all {n} triangles of the mesh have no area: it is left out"),

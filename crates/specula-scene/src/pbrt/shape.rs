@@ -22,7 +22,7 @@ use crate::error::{ErrorKind, SceneError};
 use crate::faults::Fault;
 use crate::mesh::{self, Cleaning};
 use crate::num::shorten;
-use crate::scene::{FloatParam, Geometry, Mesh, PatchMesh};
+use crate::scene::{CurveKind, CurveMesh, FloatParam, Geometry, Mesh, PatchMesh};
 
 /// A shape with its graphics state.
 pub(super) struct ShapeEntity {
@@ -46,7 +46,7 @@ pub(super) enum Prepared {
 
 /// A mesh that is still to be made: this may take a while, and is done in parallel.
 pub(super) enum Recipe {
-    Curve(curve::Curve),
+    Curves(CurveMesh),
     Patches(PatchMesh),
     Revolved(revolved::Revolved),
     Subdivision(subdivision::Control),
@@ -55,15 +55,15 @@ pub(super) enum Recipe {
 impl Recipe {
     /// Tells it whether it is of hair, as which curves differ.
     pub(super) fn set_hair(&mut self, is_hair: bool) {
-        if let (Self::Curve(curve), true) = (self, is_hair) {
-            curve.made_of_hair();
+        if let Self::Curves(curves) = self {
+            curves.is_fibre = is_hair && curves.kind != CurveKind::Ribbon;
         }
     }
 
-    /// The mesh; patches that are parallelograms, as triangles.
+    /// The mesh or the curves; patches that are parallelograms, as triangles.
     pub(super) fn build(self, limits: &Limits) -> Result<Built, String> {
         let mesh = match self {
-            Self::Curve(curve) => curve.build(limits)?,
+            Self::Curves(curves) => return Ok(Built::Curves(curves)),
             Self::Patches(patches) if patches.is_flat() => patches.mesh(),
             Self::Patches(patches) => return Ok(Built::Patches(patches)),
             Self::Revolved(revolved) => revolved.build(),
@@ -76,7 +76,7 @@ impl Recipe {
     pub(super) fn take_from(&self, left: &mut u64, limits: &Limits) -> Result<(), String> {
         match self {
             Self::Subdivision(control) => control.take_from(left, limits),
-            Self::Revolved(_) | Self::Curve(_) | Self::Patches(_) => Ok(()),
+            Self::Revolved(_) | Self::Curves(_) | Self::Patches(_) => Ok(()),
         }
     }
 
@@ -85,7 +85,7 @@ impl Recipe {
         match self {
             Self::Revolved(_) => Some(1),
             Self::Patches(mesh) => Some(mesh.patches.len()),
-            Self::Curve(curve) => Some(curve.pieces()),
+            Self::Curves(curves) => Some(curves.segments.len()),
             Self::Subdivision(_) => None,
         }
     }
@@ -95,6 +95,7 @@ impl Recipe {
 pub(super) enum Built {
     Mesh(Mesh),
     Patches(PatchMesh),
+    Curves(CurveMesh),
 }
 
 impl Built {
@@ -109,6 +110,10 @@ impl Built {
                 let (patches, cleaning) = patch::clean(patches, collects)?;
                 Ok((Self::Patches(patches), cleaning))
             }
+            Self::Curves(curves) => {
+                let (curves, cleaning) = curve::clean(curves);
+                Ok((Self::Curves(curves), cleaning))
+            }
         }
     }
 
@@ -117,6 +122,7 @@ impl Built {
         match self {
             Self::Mesh(mesh) => mesh.triangles.is_empty(),
             Self::Patches(mesh) => mesh.patches.is_empty(),
+            Self::Curves(curves) => curves.segments.is_empty(),
         }
     }
 }
@@ -163,7 +169,7 @@ pub(super) fn prepare(context: &mut Context, entity: &Entity) -> Result<Prepared
             let control = subdivision::Control::read(context, entity)?;
             Ok(Prepared::Recipe(Recipe::Subdivision(control)))
         }
-        "curve" => Ok(Prepared::Recipe(Recipe::Curve(curve::read(
+        "curve" => Ok(Prepared::Recipe(Recipe::Curves(curve::read(
             context, entity,
         )?))),
         other => {

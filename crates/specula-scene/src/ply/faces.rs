@@ -16,8 +16,16 @@ pub(super) fn has_indices(element: &Element) -> bool {
     properties.any(|p| is_indices(p) && p.value.is_integer())
 }
 
-/// Reads polygons as triangles that fan out from their first vertex. Indices are not yet checked
-/// against the number of vertices.
+/// Triangles of polygons.
+#[derive(Default)]
+pub(super) struct Faces {
+    /// They fan out from the first vertex of their polygon.
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// The first triangle of each quadrilateral.
+    pub(super) quads: Vec<usize>,
+}
+
+/// Reads polygons. Indices are not yet checked against the number of vertices.
 ///
 /// # Errors
 ///
@@ -28,8 +36,9 @@ pub(super) fn read(
     encoding: Encoding,
     limits: &Limits,
     faults: &mut Faults,
-) -> Result<Vec<[u32; 3]>, Fault> {
+) -> Result<Faces, Fault> {
     let mut triangles: Vec<[u32; 3]> = Vec::with_capacity(element.count);
+    let mut quads = Vec::new();
     let mut face = plain(element, values, encoding, &mut triangles);
     let mut corners: Vec<u32> = Vec::new();
     while face < element.count {
@@ -59,6 +68,9 @@ pub(super) fn read(
             if corners.len() < 3 {
                 continue;
             }
+            if corners.len() == 4 {
+                quads.push(triangles.len());
+            }
             triangles.extend(corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]));
             if triangles.len() as u64 > limits.max_vertices {
                 let most = limits.max_vertices;
@@ -68,7 +80,7 @@ pub(super) fn read(
         }
         face += 1;
     }
-    Ok(triangles)
+    Ok(Faces { triangles, quads })
 }
 
 /// Reads leading triangles of the common layout, a list of 32-bit indices with byte counts and

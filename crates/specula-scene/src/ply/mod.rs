@@ -15,8 +15,17 @@ use std::path::Path;
 use crate::Limits;
 use crate::faults::{self, Fault, Faults};
 use crate::read_file::Files;
-use crate::scene::Mesh;
+use crate::scene::{Mesh, PatchMesh, is_parallelogram};
 use header::{Encoding, Header};
+
+/// A mesh of polygons.
+#[derive(Default)]
+pub(crate) struct Polygons {
+    /// Triangles of polygons fan out from their first vertex.
+    pub(crate) mesh: Mesh,
+    /// The first triangle of each quadrilateral.
+    quads: Vec<usize>,
+}
 
 /// Reads a mesh. Triangles of polygons fan out from their first vertex.
 ///
@@ -26,8 +35,59 @@ use header::{Encoding, Header};
 ///
 /// What is wrong with the file.
 pub(crate) fn read(path: &Path, files: &Files, collects: bool) -> Result<Mesh, Vec<Fault>> {
+    read_polygons(path, files, collects).map(|polygons| polygons.mesh)
+}
+
+/// [`read`], which remembers which polygons are quadrilaterals.
+///
+/// # Errors
+///
+/// Those of [`read`].
+pub(crate) fn read_polygons(
+    path: &Path,
+    files: &Files,
+    collects: bool,
+) -> Result<Polygons, Vec<Fault>> {
     let bytes = files.unpacked(path).map_err(|m| vec![m.into()])?;
     parse(&bytes, files.limits(), collects)
+}
+
+impl Polygons {
+    /// The corners of a quadrilateral as those of a patch.
+    fn corners(&self, first: usize) -> [u32; 4] {
+        let triangles = &self.mesh.triangles;
+        let ([a, b, c], [_, _, d]) = (triangles[first], triangles[first + 1]);
+        [a, b, d, c]
+    }
+
+    /// Quadrilaterals as bilinear patches, and the triangles that are left. All are triangles where all quadrilaterals
+    /// are parallelograms, which two triangles equal.
+    pub(crate) fn split(self) -> (Mesh, Option<PatchMesh>) {
+        let patches: Vec<[u32; 4]> = self.quads.iter().map(|q| self.corners(*q)).collect();
+        let Self { mut mesh, quads } = self;
+        let is_flat = |p: &[u32; 4]| is_parallelogram(p.map(|v| mesh.positions[v as usize]));
+        if patches.iter().all(is_flat) {
+            return (mesh, None);
+        }
+        let mut is_half = vec![false; mesh.triangles.len()];
+        for first in quads {
+            is_half[first..first + 2].fill(true);
+        }
+        let mut is_half = is_half.into_iter();
+        mesh.triangles.retain(|_| is_half.next() == Some(false));
+        let vertices = match mesh.triangles.is_empty() {
+            true => std::mem::take(&mut mesh),
+            false => mesh.clone(),
+        };
+        let patches = PatchMesh {
+            positions: vertices.positions,
+            normals: vertices.normals,
+            uvs: vertices.uvs,
+            patches,
+            are_polygons: true,
+        };
+        (mesh, Some(patches))
+    }
 }
 
 /// Reads a mesh from the bytes of a PLY file.
@@ -35,18 +95,18 @@ pub(crate) fn read(path: &Path, files: &Files, collects: bool) -> Result<Mesh, V
 /// # Errors
 ///
 /// What was expected, with its line in headers and texts.
-fn parse(bytes: &[u8], limits: &Limits, collects: bool) -> Result<Mesh, Vec<Fault>> {
+fn parse(bytes: &[u8], limits: &Limits, collects: bool) -> Result<Polygons, Vec<Fault>> {
     let mut faults = Faults::new(collects);
     let read = parse_into(bytes, limits, &mut faults);
     faults.end(read)
 }
 
-fn parse_into(bytes: &[u8], limits: &Limits, faults: &mut Faults) -> Result<Mesh, Fault> {
+fn parse_into(bytes: &[u8], limits: &Limits, faults: &mut Faults) -> Result<Polygons, Fault> {
     let (header, rest) = header::read(bytes, faults)?;
     header.check(rest.len(), limits, faults)?;
     if !faults.is_empty() {
         // Data behind a damaged header cannot be interpreted.
-        return Ok(Mesh::default());
+        return Ok(Polygons::default());
     }
     if header.encoding == Encoding::Text {
         return data(&header, rest, limits, &mut Faults::new(false)).or_else(|first| {
@@ -55,32 +115,38 @@ fn parse_into(bytes: &[u8], limits: &Limits, faults: &mut Faults) -> Result<Mesh
             rows::name(&header, rest, line, faults)?;
             match faults.is_empty() {
                 true => Err(first),
-                false => Ok(Mesh::default()),
+                false => Ok(Polygons::default()),
             }
         });
     }
     data(&header, rest, limits, faults)
 }
 
-fn data(header: &Header, rest: &[u8], limits: &Limits, faults: &mut Faults) -> Result<Mesh, Fault> {
+fn data(
+    header: &Header,
+    rest: &[u8],
+    limits: &Limits,
+    faults: &mut Faults,
+) -> Result<Polygons, Fault> {
     let encoding = header.encoding;
     let mut values = values::Values::new(rest, encoding);
     let mut mesh = Mesh::default();
-    let mut triangles = Vec::new();
+    let mut faces = faces::Faces::default();
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" => mesh = vertices::read(element, &mut values, encoding)?,
-            "face" => triangles = faces::read(element, &mut values, encoding, limits, faults)?,
+            "face" => faces = faces::read(element, &mut values, encoding, limits, faults)?,
             _ => values.skip(element)?,
         }
     }
-    mesh.triangles = triangles;
+    mesh.triangles = faces.triangles;
     let count = mesh.positions.len();
     let outside = |t: &[u32; 3]| t.iter().any(|i| *i as usize >= count);
     if !faults.is_empty() || mesh.triangles.iter().any(outside) {
         faults::of_mesh(&mesh, faults)?;
     }
-    Ok(mesh)
+    let quads = faces.quads;
+    Ok(Polygons { mesh, quads })
 }
 
 #[cfg(test)]

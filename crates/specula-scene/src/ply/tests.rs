@@ -3,6 +3,10 @@
 use crate::{Limits, scene::Mesh};
 
 fn parse(bytes: &[u8]) -> Result<Mesh, String> {
+    polygons(bytes).map(|polygons| polygons.mesh)
+}
+
+fn polygons(bytes: &[u8]) -> Result<super::Polygons, String> {
     super::parse(bytes, &Limits::default(), false).map_err(|faults| faults[0].to_string())
 }
 
@@ -50,6 +54,25 @@ fn text_with_polygons() {
     assert_eq!(mesh.uvs[4], [0.5, 0.5]);
     assert!(mesh.normals.is_empty());
     assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 4]]);
+}
+
+#[test]
+fn quadrilaterals_that_are_no_parallelograms_are_patches() {
+    let (mesh, patches) = polygons(TEXT.as_bytes()).unwrap().split();
+    assert!(mesh.triangles.len() == 3 && patches.is_none());
+    let bent = TEXT.replace("1 1 0 1 1", "1 1 0.5 1 1");
+    let (mesh, patches) = polygons(bent.as_bytes()).unwrap().split();
+    let patches = patches.unwrap();
+    // In the order of patches.
+    assert_eq!(patches.patches, [[0, 1, 3, 2]]);
+    assert_eq!(mesh.triangles, [[0, 1, 4]]);
+    assert_eq!((patches.uvs[4], mesh.uvs.len()), ([0.5; 2], 5));
+    // Where there must be triangles, they are those of the polygon.
+    assert_eq!(patches.mesh().triangles, [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(patches.triangle_count(), 2);
+    let alone = bent.replace("face 2", "face 1").replace("3 0 1 4\n", "");
+    let (mesh, patches) = polygons(alone.as_bytes()).unwrap().split();
+    assert!(mesh.positions.is_empty() && patches.unwrap().positions.len() == 5);
 }
 
 #[test]

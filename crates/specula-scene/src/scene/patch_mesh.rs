@@ -32,6 +32,9 @@ pub struct PatchMesh {
     pub uvs: Vec<[f32; 2]>,
     /// Patches, as indices of `p00`, `p10`, `p01` and `p11`.
     pub patches: Vec<[u32; 4]>,
+    /// Whether they are quadrilaterals of a mesh of polygons, in whose place two triangles do. Others are cut finely
+    /// where they must be triangles.
+    pub are_polygons: bool,
 }
 
 impl PatchMesh {
@@ -53,16 +56,22 @@ impl PatchMesh {
     /// How many triangles [`Self::mesh`] has.
     #[must_use]
     pub fn triangle_count(&self) -> u64 {
-        let of = |p: &[u32; 4]| 2 * u64::from(self.steps(p)).pow(2);
+        let of = |p: &[u32; 4]| match self.are_polygons {
+            true => 2,
+            false => 2 * u64::from(self.steps(p)).pow(2),
+        };
         self.patches.iter().map(of).sum()
     }
 
-    /// Its triangles, with its coordinates and normals: two for a parallelogram. Other patches are cut until the flat
-    /// pieces are nowhere further from the patch than 1e-3 of its diagonal (at most 32 by 32 pieces), and until
-    /// coordinates interpolate as they do over the patch.
+    /// Its triangles, with its coordinates and normals: two for a parallelogram, and for each of polygons. Other patches
+    /// are cut until the flat pieces are nowhere further from the patch than 1e-3 of its diagonal (at most 32 by 32
+    /// pieces), and until coordinates interpolate as they do over the patch.
     #[must_use]
     pub fn mesh(&self) -> Mesh {
         let own_uvs = !self.uvs.is_empty();
+        if self.are_polygons {
+            return self.halved();
+        }
         if self.is_flat() && (own_uvs || self.patches.len() == 1 && self.positions.len() == 4) {
             return self.halved();
         }
@@ -98,21 +107,7 @@ impl PatchMesh {
     }
 
     fn steps(&self, patch: &[u32; 4]) -> u32 {
-        let [a, b, c, d] = self.corner_points(patch);
-        let size = (d - a).length().max((c - b).length());
-        // The middle of a patch lies a quarter of its twist from either diagonal.
-        let twist = (a - b - c + d).length() / 4.0;
-        if twist <= 1e-6 * size {
-            return 1;
-        }
-        let steps = (twist / (TOLERANCE * size)).sqrt().ceil();
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "clamped to small numbers"
-        )]
-        let steps = steps.clamp(4.0, f64::from(MOST_STEPS)) as u32;
-        steps
+        steps(self.corner_points(patch))
     }
 
     /// Adds `n` by `n` pieces of a patch.
@@ -145,6 +140,31 @@ impl PatchMesh {
             }
         }
     }
+}
+
+/// Whether four corners are those of a parallelogram, which two triangles equal.
+///
+/// * `corners`: p00, p10, p01 and p11.
+pub(crate) fn is_parallelogram(corners: [[f32; 3]; 4]) -> bool {
+    steps(corners.map(|p| DVec3::from(p.map(f64::from)))) == 1
+}
+
+/// Pieces along each side of a patch that lie near enough to it.
+fn steps([a, b, c, d]: [DVec3; 4]) -> u32 {
+    let size = (d - a).length().max((c - b).length());
+    // The middle of a patch lies a quarter of its twist from either diagonal.
+    let twist = (a - b - c + d).length() / 4.0;
+    if twist <= 1e-6 * size {
+        return 1;
+    }
+    let steps = (twist / (TOLERANCE * size)).sqrt().ceil();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to small numbers"
+    )]
+    let steps = steps.clamp(4.0, f64::from(MOST_STEPS)) as u32;
+    steps
 }
 
 /// Bilinear interpolation between the values at p00, p10, p01 and p11.

@@ -5,7 +5,7 @@ use glam::DMat4;
 use super::motion::Motion;
 use super::quadric_part::QuadricPart;
 use super::texture::{ColourParam, FloatParam};
-use super::{MaterialId, MeshId, ObjectId, PatchMeshId};
+use super::{CurveMeshId, MaterialId, MeshId, ObjectId, PatchMeshId};
 
 /// A triangle mesh. Optional attributes are empty or one per vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,6 +51,8 @@ pub enum Geometry {
     QuadricPart(QuadricPart),
     /// Bilinear patches.
     Patches(PatchMeshId),
+    /// Curves.
+    Curves(CurveMeshId),
 }
 
 /// Emission of a shape.

@@ -68,7 +68,7 @@ fn unused_name(materials: &[Material]) -> String {
 fn lowest(scene: &Scene) -> Option<f64> {
     let mut placed: Vec<(f64, Geometry, DMat4)> = Vec::new();
     let of =
-        |shape: &Shape| bounds::of_geometry(&scene.meshes, &scene.patch_meshes, &shape.geometry);
+        |shape: &Shape| bounds::of_geometry(&scene.meshes, scene.exact_meshes(), &shape.geometry);
     for shape in &scene.shapes {
         let low = of(shape).transformed(&shape.to_world).min.y;
         placed.push((low, shape.geometry, shape.to_world));
@@ -121,6 +121,12 @@ fn lowest_of(scene: &Scene, geometry: &Geometry, to_world: &DMat4) -> f64 {
             let mesh = &scene.patch_meshes[id.0];
             let corners = mesh.patches.iter().flatten();
             let heights = corners.map(|&i| height(mesh.positions[i as usize]));
+            heights.fold(f64::INFINITY, f64::min)
+        }
+        // At the vertices of its triangles.
+        Geometry::Curves(id) => {
+            let mesh = scene.curve_meshes[id.0].mesh();
+            let heights = mesh.positions.iter().map(|p| height(*p));
             heights.fold(f64::INFINITY, f64::min)
         }
     }

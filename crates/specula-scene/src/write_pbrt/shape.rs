@@ -6,7 +6,8 @@ use specula_bsdf::Rgb;
 
 use super::{WriteError, Writer, quoted, rgb_list};
 use crate::scene::{
-    Channel, Emission, FloatParam, Geometry, Mesh, MeshId, PatchMesh, QuadricPart, Shape,
+    Channel, CurveKind, CurveMesh, Emission, FloatParam, Geometry, Mesh, MeshId, PatchMesh,
+    QuadricPart, Shape,
 };
 
 /// Most triangles, and vertices, of a mesh within a text alone.
@@ -41,8 +42,8 @@ impl Writer<'_> {
         shape: &Shape,
         meshes: &mut HashMap<MeshId, String>,
     ) -> Result<(), WriteError> {
-        let mut kind = match shape.geometry {
-            Geometry::Mesh(id) if self.is_inline(id) => inline(&self.scene.meshes[id.0]),
+        let mut kinds = match shape.geometry {
+            Geometry::Mesh(id) if self.is_inline(id) => vec![inline(&self.scene.meshes[id.0])],
             Geometry::Mesh(id) => {
                 let file = match meshes.get(&id) {
                     Some(file) => file.clone(),
@@ -52,17 +53,24 @@ impl Writer<'_> {
                         file
                     }
                 };
-                format!("\"plymesh\" \"string filename\" [ {} ]", quoted(&file))
+                vec![format!(
+                    "\"plymesh\" \"string filename\" [ {} ]",
+                    quoted(&file)
+                )]
             }
-            Geometry::Sphere { radius } => format!("\"sphere\" \"float radius\" [ {radius} ]"),
-            Geometry::Disk { radius, height } => {
-                format!("\"disk\" \"float radius\" [ {radius} ] \"float height\" [ {height} ]")
+            Geometry::Sphere { radius } => {
+                vec![format!("\"sphere\" \"float radius\" [ {radius} ]")]
             }
-            Geometry::QuadricPart(part) => quadric_part(&part),
-            Geometry::Patches(id) => patches(&self.scene.patch_meshes[id.0]),
+            Geometry::Disk { radius, height } => vec![format!(
+                "\"disk\" \"float radius\" [ {radius} ] \"float height\" [ {height} ]"
+            )],
+            Geometry::QuadricPart(part) => vec![quadric_part(&part)],
+            Geometry::Patches(id) => vec![patches(&self.scene.patch_meshes[id.0])],
+            Geometry::Curves(id) => curves(&self.scene.curve_meshes[id.0]),
         };
         if shape.alpha != FloatParam::Value(1.0) {
-            kind += &self.float_param("alpha", shape.alpha)?;
+            let alpha = self.float_param("alpha", shape.alpha)?;
+            kinds.iter_mut().for_each(|kind| *kind += &alpha);
         }
         let emission = match shape.emission {
             Some(emission) => self.emission(emission)?,
@@ -76,8 +84,9 @@ impl Writer<'_> {
         let place = self.place(&shape.to_world, shape.motion.as_ref());
         let material = quoted(self.names.of(shape.material));
         let media = self.sides(shape.material);
+        let shapes = kinds.join("\nShape ");
         self.line(&format!(
-            "AttributeBegin\n{place}\n{reverse}{emission}{media}NamedMaterial {material}\nShape {kind}\nAttributeEnd"
+            "AttributeBegin\n{place}\n{reverse}{emission}{media}NamedMaterial {material}\nShape {shapes}\nAttributeEnd"
         ));
         Ok(())
     }
@@ -155,6 +164,29 @@ fn patches(mesh: &PatchMesh) -> String {
     let indices = list("integer indices", mesh.patches.iter().flatten());
     let vertices = vertices([&mesh.positions, &mesh.normals], &mesh.uvs);
     format!("\"bilinearmesh\"{indices}{vertices}")
+}
+
+/// A shape of the text for each segment.
+fn curves(curves: &CurveMesh) -> Vec<String> {
+    let kind = match curves.kind {
+        CurveKind::Flat => "flat",
+        CurveKind::Cylinder => "cylinder",
+        CurveKind::Ribbon => "ribbon",
+    };
+    let segments = curves
+        .segments
+        .iter()
+        .zip(&curves.width_at_ends)
+        .enumerate();
+    let written = segments.map(|(i, (controls, [from, to]))| {
+        let points = list("point3 P", controls.iter().flatten());
+        let normals = curves.normals.get(i).into_iter().flatten().flatten();
+        let normals = list("normal N", normals);
+        format!(
+            "\"curve\" \"string type\" \"{kind}\"{points}{normals} \"float width0\" [ {from} ] \"float width1\" [ {to} ]"
+        )
+    });
+    written.collect()
 }
 
 fn vertices([positions, normals]: [&[[f32; 3]]; 2], uvs: &[[f32; 2]]) -> String {

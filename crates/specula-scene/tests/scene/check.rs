@@ -234,7 +234,7 @@ fn crossed_limits_name_their_option() {
     let folder = Folder::new();
     let path = folder.write(
         "scene.pbrt",
-        "WorldBegin\nAttributeBegin AttributeBegin\nShape \"curve\" \"point3 P\" [0 0 0 1 0 0 1 1 0 2 2 1]\n",
+        "WorldBegin\nAttributeBegin AttributeBegin\nAreaLightSource \"diffuse\"\nShape \"curve\" \"point3 P\" [0 0 0 1 0 0 1 1 0 2 2 1]\n",
     );
     for (change, option) in [
         ("depth", "--limit-nesting"),

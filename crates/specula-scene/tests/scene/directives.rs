@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use specula_scene::scene::{
-    Channel, ColourParam, EnvironmentMapping, Filter, Geometry, Light, MeshId, PatchMeshId,
-    QuadricPart, Texture, TextureMapping, UvMapping, Wrap,
+    Channel, ColourParam, CurveKind, CurveMeshId, EnvironmentMapping, Filter, Geometry, Light,
+    MeshId, PatchMeshId, QuadricPart, Texture, TextureMapping, UvMapping, Wrap,
 };
 use specula_scene::{LoadOptions, Loaded, Summary};
 
@@ -410,6 +410,145 @@ fn curved_patches_are_read_exactly_and_written_again() {
     triangles.triangulate_exact_shapes(|_| true);
     assert_eq!((triangles.meshes.len(), triangles.shapes.len()), (3, 3));
     assert!(triangles.validate().is_ok());
+}
+
+#[test]
+fn curves_are_read_exactly_and_written_again() {
+    let loaded = load(
+        "WorldBegin
+         Shape \"curve\" \"point3 P\" [0 0 0 0 1 0 1 1 0 1 0 0] \"float width0\" 0.5 \"float width1\" 0.25
+         Shape \"curve\" \"string type\" \"cylinder\" \"string basis\" \"bspline\" \"float width\" 0.125
+           \"point3 P\" [0 0 0 6 0 0 12 6 0 18 0 6 24 0 0]
+         Shape \"curve\" \"string type\" \"ribbon\" \"integer degree\" 2 \"normal N\" [0 0 2 0 0 1 0 0 0]
+           \"point3 P\" [0 0 0 3 3 0 6 0 0 6 0 0 6 0 0] \"float width1\" 3
+         Shape \"curve\" \"point3 P\" [1 1 1 1 1 1 1 1 1 1 1 1]
+         AreaLightSource \"diffuse\" \"float power\" 3
+         Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"float width\" 0.1",
+    )
+    .unwrap();
+    let messages = warnings(&loaded);
+    assert_eq!(
+        messages,
+        [
+            "1 segments without length or width are dropped",
+            "no segment of the curve has a length and a width: it is left out",
+        ]
+    );
+    let scene = &loaded.scene;
+    assert!(scene.validate().is_ok());
+    let found: Vec<Geometry> = scene.shapes.iter().map(|s| s.geometry).collect();
+    assert_eq!(
+        found,
+        [0, 1, 2, 3].map(|i| Geometry::Curves(CurveMeshId(i)))
+    );
+    let [arc, spline, ribbon, _] = &scene.curve_meshes[..] else {
+        panic!("{:?}", scene.curve_meshes);
+    };
+    assert_eq!(
+        (arc.kind, arc.width_at_ends[0]),
+        (CurveKind::Flat, [0.5, 0.25])
+    );
+    assert_eq!(
+        (spline.kind, spline.segments.len()),
+        (CurveKind::Cylinder, 2)
+    );
+    // De Boor: the ends of a uniform cubic segment are (1, 4, 1)/6.
+    assert_eq!(spline.segments[0][0], [6.0, 1.0, 0.0]);
+    assert_eq!(spline.segments[0][3], spline.segments[1][0]);
+    assert_eq!(
+        (ribbon.kind, ribbon.width_at_ends[0]),
+        (CurveKind::Ribbon, [1.0, 2.0])
+    );
+    assert_eq!(
+        ribbon.segments,
+        [[[0.0; 3], [2.0, 2.0, 0.0], [4.0, 2.0, 0.0], [6.0, 0.0, 0.0]]]
+    );
+    assert_eq!(ribbon.normals, [[[0.0, 0.0, 1.0]; 2]]);
+    let path = std::path::Path::new("curves.pbrt");
+    let (text, _) = specula_scene::write_pbrt::pbrt_text(scene, path).unwrap();
+    let again = load(&text).unwrap().scene;
+    // A shape for each segment.
+    assert_eq!(again.curve_meshes.len(), 5);
+    assert_eq!(
+        (&again.curve_meshes[0], &again.curve_meshes[3]),
+        (arc, ribbon)
+    );
+    assert_eq!(again.curve_meshes[2].segments[0], spline.segments[1]);
+    let mut bent = scene.clone();
+    bent.curve_meshes[0].width_at_ends[0][1] = 0.375;
+    assert_ne!(bent.fingerprint(), scene.fingerprint());
+    bent.curve_meshes[0].normals.push([[0.0, 0.0, 1.0]; 2]);
+    let fault = bent.validate().unwrap_err().to_string();
+    assert!(fault.contains("curves 0: ribbons have not"), "{fault}");
+    let mut triangles = scene.clone();
+    triangles.triangulate_exact_shapes(|s| s.emission.is_some());
+    assert_eq!((triangles.meshes.len(), triangles.shapes.len()), (1, 4));
+    assert!(triangles.validate().is_ok());
+}
+
+/// Curves that are pressed flat are triangles, as are those that emit, within the limit of meshes.
+#[test]
+fn curves_that_are_pressed_flat_are_triangles_and_lamps_have_limits() {
+    let curve = "\"curve\" \"point3 P\" [0 0 0 0 1 0 1 1 0 1 0 0] \"float width\" 0.01";
+    let flat = load(format!("WorldBegin Scale 1 1 0 Shape {curve}")).unwrap();
+    assert!(matches!(flat.scene.shapes[0].geometry, Geometry::Mesh(_)));
+    let mut options = LoadOptions::default();
+    options.limits.max_vertices = 30;
+    let read = |light: &str| {
+        let text = format!("WorldBegin {light} Shape {curve}");
+        specula_scene::load_bytes(std::path::Path::new("a.pbrt"), text.into_bytes(), &options)
+    };
+    assert!(read("").is_ok());
+    let error = read("AreaLightSource \"diffuse\"").unwrap_err().to_string();
+    assert!(error.contains("max_vertices"), "{error}");
+}
+
+/// A file with a bent quadrilateral beside a triangle is two shapes of one material, also where it is pressed flat.
+#[test]
+fn quadrilaterals_of_ply_files_are_patches() {
+    let folder = Folder::new();
+    let ply = |z: f64, more: &str| {
+        let count = 1 + more.lines().count();
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n\
+             property float z\nelement face {count}\nproperty list uchar int vertex_indices\n\
+             end_header\n0 0 0\n1 0 0\n1 1 {z}\n0 1 0\n2 0 1\n4 0 1 2 3\n{more}"
+        )
+    };
+    folder.write("flat.ply", ply(0.0, "3 1 4 2\n"));
+    folder.write("bent.ply", ply(0.5, ""));
+    folder.write("both.ply", ply(0.5, "3 1 4 2\n"));
+    let loaded = folder
+        .load(
+            "WorldBegin Shape \"plymesh\" \"string filename\" \"flat.ply\"
+             Shape \"plymesh\" \"string filename\" \"bent.ply\"
+             AreaLightSource \"diffuse\" \"float power\" 3
+             Shape \"plymesh\" \"string filename\" \"both.ply\"
+             Scale 1 1 0 Shape \"plymesh\" \"string filename\" \"both.ply\"",
+        )
+        .unwrap();
+    let scene = &loaded.scene;
+    assert!(scene.validate().is_ok());
+    let kinds: Vec<&str> = (scene.shapes.iter())
+        .map(|s| match s.geometry {
+            Geometry::Mesh(_) => "mesh",
+            Geometry::Patches(_) => "patches",
+            _ => "other",
+        })
+        .collect();
+    let expected = ["mesh", "patches", "mesh", "patches", "mesh", "mesh"];
+    assert_eq!(kinds, expected);
+    assert_eq!(scene.meshes[0].triangles.len(), 3);
+    assert_eq!(scene.patch_meshes[0].patches, [[0, 1, 3, 2]]);
+    // Both parts emit alike.
+    assert_eq!(scene.shapes[2].emission, scene.shapes[3].emission);
+    assert!(scene.shapes[2].emission.is_some());
+    let mut triangles = scene.clone();
+    triangles.triangulate_exact_shapes(|_| true);
+    let Geometry::Mesh(id) = triangles.shapes[1].geometry else {
+        panic!()
+    };
+    assert_eq!(triangles.meshes[id.0].triangles, [[0, 1, 2], [0, 2, 3]]);
 }
 
 #[test]

@@ -288,8 +288,8 @@ fn absorption_of_hair_comes_before_colour_and_colour_before_melanin() {
     }
 }
 
-/// Fibres are round tubes with tangents, also in mixes, whichever way they are oriented; ribbons and other materials
-/// are what they were.
+/// Triangles of fibres are round tubes with tangents, also in mixes, whichever way they are oriented; ribbons and other
+/// materials are what they were.
 #[test]
 fn curves_of_hair_are_fibres() {
     let curve = |look: &str| {
@@ -301,10 +301,11 @@ fn curves_of_hair_are_fibres() {
     let mesh = |before: &str, look: &str| -> (Mesh, bool) {
         let loaded = load_world(&format!("{before} {}", curve(look))).unwrap();
         let shape = &loaded.scene.shapes[0];
-        let Geometry::Mesh(id) = shape.geometry else {
+        let Geometry::Curves(id) = shape.geometry else {
             panic!()
         };
-        (loaded.scene.meshes[id.0].clone(), shape.reverse_orientation)
+        let curves = &loaded.scene.curve_meshes[id.0];
+        (curves.mesh(), shape.reverse_orientation)
     };
     let mix = "MakeNamedMaterial \"a\" \"string type\" \"hair\" \
                MakeNamedMaterial \"b\" \"string type\" \"diffuse\" \

@@ -1,6 +1,7 @@
 //! Tests of the acceleration structure: against brute force, against itself, against doubles.
 
 mod batches;
+mod curves;
 mod degenerate;
 mod instances;
 mod large;

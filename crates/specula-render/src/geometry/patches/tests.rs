@@ -101,6 +101,7 @@ fn mesh(with_uvs: bool, with_normals: bool) -> PatchMesh {
             [0.2, -0.3, 0.9],
         ],
         patches: vec![[1, 2, 3, 4]],
+        are_polygons: false,
     };
     if !with_uvs {
         mesh.uvs.clear();

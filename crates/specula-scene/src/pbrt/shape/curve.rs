@@ -1,44 +1,17 @@
-//! `curve`: Bezier curves and B-splines of some width.
-//!
-//! pbrt-v4's `flat` curves face every ray and its `cylinder` curves shade like tubes; both become
-//! tubes here, of 4 and of 12 sides, whose mean width from all around is the curve's; those of hair
-//! all have 12, and their centre line's direction as tangents. Ribbons become strips. The centre line
-//! is nowhere further from its chords than 1/20 of the width.
+//! `curve`: Bezier curves and B-splines of some width, as cubic Bezier segments.
 
 use glam::DVec3;
 
-use super::{bounded, mesh_error};
-use crate::Limits;
+use super::mesh_error;
 use crate::error::{ErrorKind, SceneError};
+use crate::mesh::Cleaning;
 use crate::num::{f32_of, shorten};
 use crate::pbrt::context::{Context, Entity};
-use crate::scene::Mesh;
-use crate::tube::{self, Bezier, Station, cubic_spline, join, tube};
-
-/// Sides of a tube that shades like one.
-const ROUND_SIDES: u32 = 12;
-
-/// What a curve looks like.
-enum CurveForm {
-    /// A tube of so many sides.
-    Tube(u32),
-    /// A strip, its normals at the ends of the segments.
-    Ribbon(Vec<DVec3>),
-}
-
-/// A curve of several segments.
-pub(in crate::pbrt) struct Curve {
-    /// Cubic Bezier segments.
-    segments: Vec<Bezier>,
-    /// Width at the beginning and at the end.
-    width_at_ends: [f64; 2],
-    look: CurveForm,
-    /// Whether its material is hair.
-    is_hair: bool,
-}
+use crate::scene::tube::{Bezier, cubic_spline};
+use crate::scene::{CurveKind, CurveMesh};
 
 /// Reads the shape `curve`.
-pub(super) fn read(context: &mut Context, entity: &Entity) -> Result<Curve, SceneError> {
+pub(super) fn read(context: &mut Context, entity: &Entity) -> Result<CurveMesh, SceneError> {
     let params = &entity.params;
     params.ignore(&["splitdepth"]);
     let width = params.float_from_zero("width", 1.0)?;
@@ -85,39 +58,50 @@ pub(super) fn read(context: &mut Context, entity: &Entity) -> Result<Curve, Scen
         let message = format!("\"P\": a curve of degree {degree} needs {expected}, found {found}");
         return Err(mesh_error(entity, "P", message));
     }
-    let look = look(context, entity, segments.len())?;
-    Ok(Curve {
-        segments,
-        width_at_ends,
-        look,
-        is_hair: false,
+    let (kind, normals) = kind(context, entity, segments.len())?;
+    let narrow = |p: DVec3| p.to_array().map(f32_of);
+    let count = segments.len() as f64;
+    let [first, last] = width_at_ends;
+    let width = |i: usize| f32_of(first + i as f64 / count * (last - first));
+    let ends = |i: usize| [normals[i], normals[i + 1]];
+    Ok(CurveMesh {
+        kind,
+        width_at_ends: (0..segments.len())
+            .map(|i| [width(i), width(i + 1)])
+            .collect(),
+        normals: match kind {
+            CurveKind::Ribbon => (0..segments.len()).map(ends).collect(),
+            CurveKind::Flat | CurveKind::Cylinder => Vec::new(),
+        },
+        segments: segments.into_iter().map(|s| s.map(narrow)).collect(),
+        is_fibre: false,
     })
 }
 
-fn look(context: &mut Context, entity: &Entity, segments: usize) -> Result<CurveForm, SceneError> {
+/// The kind, and of ribbons the unit normals between segments.
+fn kind(
+    context: &mut Context,
+    entity: &Entity,
+    segments: usize,
+) -> Result<(CurveKind, Vec<[f32; 3]>), SceneError> {
     let params = &entity.params;
     let normals = params.numbers("N", &["normal"])?;
-    let kind = params.string("type")?;
-    let tube = match kind {
-        None | Some(("flat", _)) => 4,
-        Some(("cylinder", _)) => ROUND_SIDES,
+    let kind = match params.string("type")? {
+        None | Some(("flat", _)) => CurveKind::Flat,
+        Some(("cylinder", _)) => CurveKind::Cylinder,
         Some(("ribbon", _)) => {
-            let normals: Vec<DVec3> = normals
-                .unwrap_or_default()
-                .as_chunks::<3>()
-                .0
-                .iter()
-                .map(|n| (*n).into())
-                .collect();
-            if normals.len() != segments + 1 {
+            let given = normals.unwrap_or_default().as_chunks::<3>().0;
+            if given.len() != segments + 1 {
                 let message = format!(
                     "\"N\": a ribbon of {segments} segments needs {} normals, found {}",
                     segments + 1,
-                    normals.len()
+                    given.len()
                 );
                 return Err(mesh_error(entity, "N", message));
             }
-            return Ok(CurveForm::Ribbon(normals));
+            let unit = |n: &[f64; 3]| DVec3::from(*n).normalize_or(DVec3::Z);
+            let unit = given.iter().map(|n| unit(n).to_array().map(f32_of));
+            return Ok((CurveKind::Ribbon, unit.collect()));
         }
         Some((other, place)) => {
             let message = format!(
@@ -131,7 +115,29 @@ fn look(context: &mut Context, entity: &Entity, segments: usize) -> Result<Curve
         let message = "\"N\" has a meaning for curves of type \"ribbon\" alone";
         context.warn(&params.place_of("N"), message);
     }
-    Ok(CurveForm::Tube(tube))
+    Ok((kind, Vec::new()))
+}
+
+/// Drops segments without length or width.
+pub(in crate::pbrt) fn clean(curves: CurveMesh) -> (CurveMesh, Cleaning) {
+    let count = curves.segments.len();
+    let kept: Vec<usize> = (0..count).filter(|i| curves.has_area(*i)).collect();
+    let cleaning = Cleaning {
+        dropped_segments: count - kept.len(),
+        ..Cleaning::default()
+    };
+    if kept.len() == count {
+        return (curves, cleaning);
+    }
+    let cleaned = CurveMesh {
+        segments: kept.iter().map(|i| curves.segments[*i]).collect(),
+        width_at_ends: kept.iter().map(|i| curves.width_at_ends[*i]).collect(),
+        normals: (kept.iter())
+            .filter_map(|i| curves.normals.get(*i).copied())
+            .collect(),
+        ..curves
+    };
+    (cleaned, cleaning)
 }
 
 /// A Bezier segment of degree 2 or 3 as a cubic one.
@@ -152,138 +158,9 @@ fn spline(p: &[DVec3]) -> Bezier {
     }
 }
 
-impl Curve {
-    /// The curve as a fibre of hair, whose lobe takes the offset across it from its normals: tubes are round.
-    pub(in crate::pbrt) fn made_of_hair(&mut self) {
-        self.is_hair = true;
-        if let CurveForm::Tube(sides) = &mut self.look {
-            *sides = ROUND_SIDES;
-        }
-    }
-
-    /// Shapes that pbrt-v4 makes of it without splitting.
-    pub(super) fn pieces(&self) -> usize {
-        self.segments.len()
-    }
-
-    pub(super) fn build(self, limits: &Limits) -> Result<Mesh, String> {
-        let sides = match self.look {
-            CurveForm::Tube(sides) => sides as usize,
-            CurveForm::Ribbon(_) => 1,
-        };
-        let steps: usize = self.segments.iter().map(|s| self.steps(s) as usize).sum();
-        let size = 2 * sides * (steps + self.segments.len());
-        bounded((), size as u64, limits)?;
-        let stations = self.stations();
-        let mut mesh = Mesh::default();
-        match &self.look {
-            CurveForm::Tube(sides) => {
-                tube(&stations, *sides, &mut mesh);
-                if self.is_hair {
-                    mesh.tangents = tube::tangents(&stations, *sides);
-                    mesh.is_fibre = true;
-                }
-            }
-            CurveForm::Ribbon(normals) => ribbon(&stations, normals, &mut mesh),
-        }
-        Ok(mesh)
-    }
-
-    /// Chords of a segment.
-    fn steps(&self, control: &Bezier) -> u32 {
-        tube::steps(control, self.width_at_ends[0].max(self.width_at_ends[1]))
-    }
-
-    fn stations(&self) -> Vec<Station> {
-        let count = self.segments.len() as f64;
-        let [first, last] = self.width_at_ends;
-        // pbrt-v4's normals do not lean where the width grows.
-        tube::stations(
-            &self.segments,
-            |segment| self.steps(&self.segments[segment]),
-            |segment, u| [first + (segment as f64 + u) / count * (last - first), 0.0],
-        )
-    }
-}
-
-/// A strip along the stations, across their normals.
-fn ribbon(stations: &[Station], normals: &[DVec3], mesh: &mut Mesh) {
-    for (row, station) in stations.iter().enumerate() {
-        let (from, to) = (normals[station.segment], normals[station.segment + 1]);
-        let normal = from.lerp(to, station.u).normalize_or(DVec3::Z);
-        let across = normal
-            .cross(station.tangent)
-            .try_normalize()
-            .unwrap_or_else(|| normal.any_orthonormal_vector());
-        for v in [0.0, 1.0] {
-            let point = station.point + across * ((v - 0.5) * station.width);
-            mesh.positions.push(point.to_array().map(f32_of));
-            mesh.normals.push(normal.to_array().map(f32_of));
-            mesh.uvs.push([f32_of(station.u), f32_of(v)]);
-        }
-        join(stations, row, 1, mesh);
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::PI;
-
-    use glam::DMat4;
-
     use super::*;
-    use crate::mesh::{area, clean};
-
-    fn straight(look: CurveForm) -> Curve {
-        let at = |x: f64| DVec3::new(x, 0.0, 0.0);
-        Curve {
-            segments: vec![
-                bezier(&[at(0.0), at(1.0), at(2.0)]),
-                bezier(&[at(2.0), at(3.0), at(4.0)]),
-            ],
-            width_at_ends: [0.2, 0.2],
-            look,
-            is_hair: false,
-        }
-    }
-
-    #[test]
-    fn tubes_have_the_width_of_the_curve_and_point_outwards() {
-        for sides in [4, 12] {
-            let mut mesh = straight(CurveForm::Tube(sides))
-                .build(&Limits::default())
-                .unwrap();
-            assert_eq!(clean(&mut mesh).unwrap(), Default::default());
-            // A convex tube's mean width from all around is its girth over pi.
-            let girth = area(&mesh, &DMat4::IDENTITY) / 4.0;
-            assert!((girth / PI - 0.2).abs() < 1e-6, "{girth}");
-            for t in &mesh.triangles {
-                let [a, b, c] = t.map(|i| DVec3::from(mesh.positions[i as usize].map(f64::from)));
-                let middle = (a + b + c) / 3.0;
-                let outwards = DVec3::new(0.0, middle.y, middle.z);
-                assert!((b - a).cross(c - a).dot(outwards) > 0.0);
-            }
-        }
-    }
-
-    #[test]
-    fn ribbons_lie_across_their_normals() {
-        let mut mesh = straight(CurveForm::Ribbon(vec![DVec3::Z; 3]))
-            .build(&Limits::default())
-            .unwrap();
-        assert_eq!(clean(&mut mesh).unwrap(), Default::default());
-        assert!((area(&mesh, &DMat4::IDENTITY) - 0.8).abs() < 1e-6);
-        let winding = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|i| DVec3::from(mesh.positions[i as usize].map(f64::from)));
-            (b - a).cross(c - a).z
-        };
-        assert!(mesh.triangles.iter().all(|t| winding(t).abs() > 0.0));
-        assert!(
-            mesh.positions
-                .iter()
-                .all(|p| p[2] == 0.0 && p[1].abs() <= 0.1 + 1e-6)
-        );
-    }
 
     #[test]
     fn splines_become_the_bezier_segments_of_the_same_curve() {
@@ -298,23 +175,23 @@ mod tests {
     }
 
     #[test]
-    fn chords_stay_near_the_curve() {
-        let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
-        let curve = Curve {
-            segments: vec![[p(0.0, 0.0), p(0.0, 4.0), p(4.0, 4.0), p(4.0, 0.0)]],
-            width_at_ends: [0.1, 0.1],
-            look: CurveForm::Tube(4),
-            is_hair: false,
+    fn segments_without_width_are_dropped() {
+        let segment = [0.0, 1.0, 2.0, 3.0].map(|x: f32| [x, 0.0, 0.0]);
+        let curves = CurveMesh {
+            kind: CurveKind::Ribbon,
+            segments: vec![segment; 3],
+            width_at_ends: vec![[0.0, 0.1], [0.0; 2], [0.2; 2]],
+            normals: vec![
+                [[0.0, 0.0, 1.0]; 2],
+                [[1.0, 0.0, 0.0]; 2],
+                [[0.0, 1.0, 0.0]; 2],
+            ],
+            is_fibre: true,
         };
-        let stations = curve.stations();
-        let [a, b, c, d] = curve.segments[0];
-        for pair in stations.windows(2) {
-            let u = 0.5 * (pair[0].u + pair[1].u);
-            let v = 1.0 - u;
-            let exact =
-                a * (v * v * v) + b * (3.0 * v * v * u) + c * (3.0 * v * u * u) + d * (u * u * u);
-            let chord = pair[0].point.midpoint(pair[1].point);
-            assert!(exact.distance(chord) <= tube::TOLERANCE * 0.1, "{u}");
-        }
+        let (cleaned, cleaning) = clean(curves);
+        assert_eq!(cleaning.dropped_segments, 1);
+        assert_eq!(cleaned.width_at_ends, [[0.0, 0.1], [0.2; 2]]);
+        assert_eq!(cleaned.normals[1], [[0.0, 1.0, 0.0]; 2]);
+        assert!(cleaned.segments.len() == 2 && cleaned.is_fibre);
     }
 }

@@ -23,6 +23,7 @@ pub(super) fn read(context: &mut Context, entity: &Entity) -> Result<PatchMesh, 
         normals,
         uvs,
         patches,
+        are_polygons: false,
     })
 }
 
@@ -42,6 +43,7 @@ pub(in crate::pbrt) fn clean(
         normals,
         uvs,
         patches,
+        are_polygons,
     } = patches;
     // By triangles between the corners, of which bad normals take theirs.
     let corners = |&[a, b, c, d]: &[u32; 4]| [[a, b, d], [a, d, c], [a, b, c], [b, d, c]];
@@ -58,6 +60,7 @@ pub(in crate::pbrt) fn clean(
         normals: mesh.normals,
         uvs: mesh.uvs,
         patches: Vec::new(),
+        are_polygons,
     };
     let before = patches.len();
     cleaned.patches = patches;
@@ -86,10 +89,11 @@ mod tests {
             normals: vec![[0.0; 3]; 5],
             uvs: vec![[f32::NAN; 2]; 5],
             patches: vec![[0, 1, 2, 3], [0, 1, 4, 0], [2, 2, 0, 1]],
+            are_polygons: true,
         };
         let (cleaned, cleaning) = clean(patches, false).unwrap();
         assert_eq!(cleaned.patches, [[0, 1, 2, 3], [2, 2, 0, 1]]);
-        assert!(cleaned.uvs.is_empty() && cleaned.normals[0][2] > 0.5);
+        assert!(cleaned.are_polygons && cleaned.uvs.is_empty() && cleaned.normals[0][2] > 0.5);
         let expected = Cleaning {
             dropped_patches: 1,
             replaced_normals: 5,
