@@ -379,6 +379,12 @@ pub(crate) fn parallelogram([one, other]: [[Vec3<f32>; 3]; 2]) -> Option<[Vec3<f
     (gap.length() <= 1e-6 * size).then_some([corner, next, last])
 }
 
+/// The geometric normal of a triangle, towards its outside.
+#[inline(always)]
+pub(crate) fn triangle_normal([a, b, c]: [Vec3<f32>; 3]) -> Vec3<f32> {
+    unit_or((b - a).cross(c - a), Vec3::Z)
+}
+
 /// The unit vector along `v`, without overflow or underflow; `fallback` for the zero vector and for
 /// what is not finite.
 #[inline(always)]

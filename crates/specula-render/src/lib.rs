@@ -22,6 +22,7 @@ mod movement;
 mod offset;
 mod options;
 pub mod picture;
+mod places;
 mod points;
 mod prepared;
 mod ray_cone;

@@ -13,6 +13,7 @@ use crate::geometry::{FARTHEST, Geometry};
 use crate::light::Lights;
 use crate::material::Materials;
 use crate::options::{RenderOptions, Strategy};
+use crate::places::Places;
 use crate::texture::Textures;
 
 /// Most pixels of a picture.
@@ -34,6 +35,8 @@ pub struct PreparedScene {
     batch_materials: Vec<Option<(u32, bool)>>,
     /// The same behind rough surfaces; empty where that makes no difference.
     batch_materials_behind_rough: Vec<Option<(u32, bool)>>,
+    /// What rays end at, where the scene is small.
+    pub(crate) places: Option<Places>,
     /// Whether lights are hidden from the camera.
     pub(crate) hide_emitters: bool,
     /// Whether anything moves: paths have times only then.
@@ -197,7 +200,12 @@ impl PreparedScene {
             true => known(true),
             false => Vec::new(),
         };
+        // Behind rough surfaces, too, a place has one material.
+        let is_one = batch_materials_behind_rough.is_empty()
+            || batch_materials_behind_rough == batch_materials;
+        let places = is_one.then(|| Places::new(&geometry, &batch_materials));
         Ok(Self {
+            places: places.flatten(),
             camera: view.camera,
             filter: view.filter,
             develop: view.develop,

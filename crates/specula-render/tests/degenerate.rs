@@ -109,7 +109,11 @@ fn meshes_without_area_are_nothing() {
         to_world: DMat4::from_scale(DVec3::splat(0.5)),
         motion: None,
     });
-    assert_eq!(rendered(&scene).colour, reference.colour);
+    // Lines by rounding have instances of their own: the rest of the scene is in a tree then.
+    for (a, b) in rendered(&scene).colour.iter().zip(&reference.colour) {
+        let apart = (*a - *b).map(f32::abs).max_channel();
+        assert!(apart <= 1e-4 * b.max_channel(), "{a:?} {b:?}");
+    }
 }
 
 /// The error of a scene, or its picture.

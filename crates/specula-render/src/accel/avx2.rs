@@ -10,6 +10,7 @@
 use std::arch::x86_64::*;
 use std::mem::MaybeUninit;
 
+use super::block::Rays;
 use super::frame::RayFrame;
 use super::kernel::{EntryStack, Kernel, PacketHits, STACK};
 use super::node::{Child, ChildKind, Lanes, Node8, Packet8};
@@ -53,17 +54,22 @@ impl Avx2 {
         unsafe { occluded_at(self, scene, ray, time) }
     }
 
-    pub(super) fn intersect_interleaved(
+    pub(super) fn intersect_interleaved<R: Rays + ?Sized>(
         self,
         scene: &Scene,
-        rays: &[Ray],
+        rays: &R,
         hits: &mut [Option<Hit>],
     ) {
         // SAFETY: `self` proves that the machine has the features.
         unsafe { intersect_interleaved(self, scene, rays, hits) }
     }
 
-    pub(super) fn occluded_interleaved(self, scene: &Scene, rays: &[Ray], occluded: &mut [bool]) {
+    pub(super) fn occluded_interleaved<R: Rays + ?Sized>(
+        self,
+        scene: &Scene,
+        rays: &R,
+        occluded: &mut [bool],
+    ) {
         // SAFETY: `self` proves that the machine has the features.
         unsafe { occluded_interleaved(self, scene, rays, occluded) }
     }
@@ -90,12 +96,22 @@ fn occluded_at(kernel: Avx2, scene: &Scene, ray: &Ray, time: f32) -> bool {
 }
 
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
-fn intersect_interleaved(kernel: Avx2, scene: &Scene, rays: &[Ray], hits: &mut [Option<Hit>]) {
+fn intersect_interleaved<R: Rays + ?Sized>(
+    kernel: Avx2,
+    scene: &Scene,
+    rays: &R,
+    hits: &mut [Option<Hit>],
+) {
     interleaved::intersect(kernel, scene, rays, hits);
 }
 
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
-fn occluded_interleaved(kernel: Avx2, scene: &Scene, rays: &[Ray], occluded: &mut [bool]) {
+fn occluded_interleaved<R: Rays + ?Sized>(
+    kernel: Avx2,
+    scene: &Scene,
+    rays: &R,
+    occluded: &mut [bool],
+) {
     interleaved::occluded(kernel, scene, rays, occluded);
 }
 

@@ -1,87 +1,133 @@
 //! Small scenes: sixteen rays at a time against every primitive.
 //!
-//! Below a few dozen primitives a tree costs more than it saves. Rays are sorted by the axis in which
-//! their direction is greatest, so that the triangle test permutes the coordinates of all alike, and stored as
-//! structures of arrays. The loops over [`PACK`] rays are compiled to SIMD instructions. Triangles that share corners
-//! are tested together: each corner is sheared once. Distances are computed for those that the line of any ray of the
-//! pack passes through.
+//! Below a few dozen primitives a tree costs more than it saves. Rays are stored as structures of arrays (`pack.rs`).
 //!
-//! Operation by operation the same as the traversal, whose boxes cull no hit: the answers are equal bit
-//! for bit, but for slivers in rooms that are a million of their own sizes away from the origin: rounding lets rays
-//! beside them hit. Primitives come in ascending order, so that of equal distances the first stays.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "an index below the arrays' length is what the compiler makes vectors of"
-)]
-
-use core::ops::{Index, IndexMut};
+//! - Pairs of triangles that are [rectangles](super::rectangle) across an axis are tested as such, and six pairs that
+//!   are a [box](super::parallelepiped) as one; spheres that no transform squeezes [in single precision](super::ball).
+//!   Single rays take the same way where a scene has any of them.
+//! - Other triangles that share corners are tested together: each corner is sheared once. Distances are computed for
+//!   those that the line of any ray of the pack passes through. For them rays are sorted by the axis in which their
+//!   direction is greatest, so that the test permutes the coordinates of all alike.
+//!
+//! Tests of those triangles, and of other quadrics and patches, are operation by operation those of the traversal, whose
+//! boxes cull no hit: the answers are equal bit for bit, but for slivers in rooms that are a million of their own sizes
+//! away from the origin: rounding lets rays beside them hit. Primitives of one kind come in ascending order, so that of
+//! equal distances the first stays.
 
 use macro_rules_attribute::apply;
-use specula_bsdf::Vec3;
 
-use super::clusters::{CORNERS, Cluster, Plane};
-use super::frame::{AXES, greatest_axis};
+use super::ball::Ball;
+use super::block::{BLOCK, RayBlock};
+use super::clusters::{Cluster, Plane};
+use super::frame::greatest_axis;
 use super::node::ChildKind;
+use super::pack::{NOTHING, PACK, Pack};
+use super::parallelepiped::Parallelepiped;
+use super::parallelogram::{Face, Parallelogram, Triangle};
 use super::patch::PreparedPatch;
-use super::quadric::{self, Approach, PreparedQuadric};
+use super::quadric::PreparedQuadric;
+use super::rectangle::Rectangle;
 use super::traverse::Scene;
-use super::triangle;
-use super::{Bounds, Hit, QuadricShape, Ray};
+use super::{Bounds, Hit, Ray};
+use crate::convert::id;
 use crate::simd::simd_levels;
+use crate::soa::{Column, Floats};
 
-/// Rays of a pack.
-const PACK: usize = 16;
-/// Most rays that are sorted together.
-const BATCH: usize = 512;
-/// Most triangles of a small scene, a quadric counting as [`QUADRIC`] of them, a patch as [`PATCH`]. Measured in rooms with
-/// boxes and spheres: at twice as many the tree is as fast.
-const MOST: usize = 64;
-/// Triangles that take as long as a quadric.
-const QUADRIC: usize = 3;
-/// Triangles that take as long as a patch, whose lanes are tested one after the other.
-const PATCH: usize = 8;
-
-/// One component of each ray of a pack: one cache line.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-struct Column([f32; PACK]);
-
-impl Column {
-    const ZERO: Self = Self([0.0; PACK]);
-}
-
-impl Index<usize> for Column {
-    type Output = f32;
-
-    #[inline(always)]
-    fn index(&self, lane: usize) -> &f32 {
-        &self.0[lane]
-    }
-}
-
-impl IndexMut<usize> for Column {
-    #[inline(always)]
-    fn index_mut(&mut self, lane: usize) -> &mut f32 {
-        &mut self.0[lane]
-    }
-}
+/// Most time that a small scene takes, in that of a rectangle. Measured in rooms with rectangles, boxes and spheres: at a
+/// third more the tree is as fast.
+const MOST: usize = 160;
+/// Rectangles that take as long as another triangle.
+const TRIANGLE: usize = 2;
+/// As long as a box.
+const BOX: usize = 5;
+/// As long as a sphere that no transform squeezes.
+const BALL: usize = 3;
+/// As long as another quadric.
+const QUADRIC: usize = 6;
+/// As long as a patch, whose lanes are tested one after the other.
+const PATCH: usize = 16;
 
 /// The primitives of a small scene.
 #[derive(Clone, Debug)]
 pub(super) struct SmallScene {
-    /// All triangles, ascending.
-    clusters: Vec<Cluster>,
+    pub(super) rectangles: Vec<Rectangle>,
+    pub(super) boxes: Vec<Parallelepiped>,
+    /// Of the rectangles, then six of each box.
+    faces: Vec<Face>,
+    /// All other triangles, ascending.
+    pub(super) clusters: Vec<Cluster>,
     /// The same for shadow rays, which cross few planes, in more clusters.
-    occluders: Vec<Cluster>,
-    /// Of the triangles, then of the quadrics, then of the patches, ascending.
+    pub(super) occluders: Vec<Cluster>,
+    pub(super) balls: Vec<Ball>,
+    pub(super) quadrics: Vec<PreparedQuadric>,
+    pub(super) patches: Vec<PreparedPatch>,
+    /// Indices of the primitives from the triangles on.
     primitives: Vec<u32>,
-    quadrics: Vec<PreparedQuadric>,
-    /// How many triangles there are.
-    first_quadric: u32,
-    patches: Vec<PreparedPatch>,
-    /// How many triangles and quadrics there are.
-    first_patch: u32,
+    pub(super) places: Places,
     instance: u32,
+}
+
+/// Where each kind of primitive begins; rectangles begin at 0.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Places {
+    /// Their faces.
+    pub(super) boxes: u32,
+    pub(super) triangles: u32,
+    pub(super) balls: u32,
+    pub(super) quadrics: u32,
+    pub(super) patches: u32,
+}
+
+/// What a block of rays hits.
+#[derive(Clone, Debug)]
+pub(crate) struct SmallHits {
+    pub(crate) t: Floats<BLOCK>,
+    /// Barycentric weights, where a triangle or a patch is hit.
+    u: Floats<BLOCK>,
+    v: Floats<BLOCK>,
+    /// What is hit, by its place; or [`NOTHING`].
+    pub(crate) place: Column<u32, BLOCK>,
+}
+
+impl SmallHits {
+    pub(super) const NONE: Self = Self {
+        t: Floats::of(0.0),
+        u: Floats::of(0.0),
+        v: Floats::of(0.0),
+        place: Column::of(NOTHING),
+    };
+}
+
+/// What the leaves of a tree hold, by the indices of primitives.
+#[derive(Default)]
+struct Leaves {
+    triangles: Vec<Triangle>,
+    quadrics: Vec<PreparedQuadric>,
+    patches: Vec<PreparedPatch>,
+}
+
+impl Leaves {
+    /// `None` where there are curves.
+    fn of(scene: &Scene) -> Option<Self> {
+        let mut leaves = Self::default();
+        let mut pending = vec![scene.root?];
+        while let Some(child) = pending.pop() {
+            match child.kind() {
+                ChildKind::Node => pending.extend(scene.nodes[child.index()].occupied()),
+                ChildKind::Packet => {
+                    (leaves.triangles).extend(scene.packets[child.index()].occupied());
+                }
+                ChildKind::Quadric => leaves.quadrics.push(scene.quadrics[child.index()]),
+                ChildKind::PatchOrPlacement => leaves.patches.push(scene.patches[child.index()]),
+                // Of which there are many.
+                ChildKind::CurvePart => return None,
+            }
+        }
+        leaves.triangles.sort_unstable_by_key(|t| t.0);
+        leaves.quadrics.sort_unstable_by_key(|q| q.primitive);
+        leaves.patches.sort_unstable_by_key(|p| p.primitive);
+        Some(leaves)
+    }
 }
 
 impl SmallScene {
@@ -91,85 +137,218 @@ impl SmallScene {
         if scene.packets.len() + scene.quadrics.len() + scene.patches.len() > MOST {
             return None;
         }
-        let mut triangles: Vec<(u32, [[f32; 3]; 3])> = Vec::new();
-        let mut quadrics: Vec<PreparedQuadric> = Vec::new();
-        let mut patches: Vec<PreparedPatch> = Vec::new();
-        let mut pending = vec![scene.root?];
-        while let Some(child) = pending.pop() {
-            match child.kind() {
-                ChildKind::Node => pending.extend(scene.nodes[child.index()].occupied()),
-                ChildKind::Packet => triangles.extend(scene.packets[child.index()].occupied()),
-                ChildKind::Quadric => quadrics.push(scene.quadrics[child.index()]),
-                ChildKind::PatchOrPlacement => patches.push(scene.patches[child.index()]),
-                // Of which there are many.
-                ChildKind::CurvePart => return None,
-            }
-        }
-        if triangles.len() + QUADRIC * quadrics.len() + PATCH * patches.len() > MOST {
-            return None;
-        }
-        triangles.sort_unstable_by_key(|t| t.0);
-        quadrics.sort_unstable_by_key(|q| q.primitive);
-        patches.sort_unstable_by_key(|p| p.primitive);
+        let Leaves {
+            triangles,
+            quadrics,
+            patches,
+        } = Leaves::of(scene)?;
         let bounds = (triangles.iter())
             .map(|(_, corners)| Bounds::around(corners))
             .fold(Bounds::EMPTY, |all, own| all.union(&own));
+        let Solids {
+            rectangles,
+            boxes,
+            faces,
+            triangles,
+        } = Solids::of(&triangles);
+        let (balls, quadrics): (Vec<_>, Vec<_>) =
+            (quadrics.into_iter()).partition(|q| Ball::of(q).is_some());
+        let time = rectangles.len()
+            + BOX * boxes.len()
+            + TRIANGLE * triangles.len()
+            + BALL * balls.len()
+            + QUADRIC * quadrics.len()
+            + PATCH * patches.len();
+        if time > MOST {
+            return None;
+        }
+        let boxes_from = id(rectangles.len());
+        let triangles_from = id(faces.len());
+        let balls_from = triangles_from + id(triangles.len());
+        let quadrics_from = balls_from + id(balls.len());
+        let places = Places {
+            boxes: boxes_from,
+            triangles: triangles_from,
+            balls: balls_from,
+            quadrics: quadrics_from,
+            patches: quadrics_from + id(quadrics.len()),
+        };
         Some(Self {
+            rectangles,
+            boxes,
+            faces,
             clusters: Cluster::all(&triangles, |_| None),
             occluders: Cluster::all(&triangles, |corners| Plane::of(corners, &bounds)),
-            primitives: triangles
-                .iter()
-                .map(|t| t.0)
+            primitives: (triangles.iter().map(|t| t.0))
+                .chain(balls.iter().map(|q| q.primitive))
                 .chain(quadrics.iter().map(|q| q.primitive))
                 .chain(patches.iter().map(|p| p.primitive))
                 .collect(),
-            first_quadric: crate::convert::id(triangles.len()),
-            first_patch: crate::convert::id(triangles.len() + quadrics.len()),
+            balls: balls.iter().filter_map(Ball::of).collect(),
             quadrics,
             patches,
+            places,
             instance,
         })
+    }
+
+    /// Whether some of its primitives are tested otherwise than in the tree.
+    pub(super) fn has_own_tests(&self) -> bool {
+        !self.faces.is_empty() || !self.balls.is_empty()
+    }
+
+    /// The primitives of each place, one of them twice where there is one, and the instance.
+    pub(super) fn primitives(&self) -> (Vec<[u32; 2]>, u32) {
+        let faces = self.faces.iter().map(Face::primitives);
+        let others = self.primitives.iter().map(|&p| [p; 2]);
+        (faces.chain(others).collect(), self.instance)
     }
 
     /// The closest hits of the rays, in order.
     pub(super) fn intersect(&self, rays: &[Ray], hits: &mut Vec<Option<Hit>>) {
         hits.clear();
-        hits.resize(rays.len(), None);
-        for (rays, hits) in rays.chunks(BATCH).zip(hits.chunks_mut(BATCH)) {
-            closest(self, rays, hits);
+        let mut found = SmallHits::NONE;
+        for rays in rays.chunks(BLOCK) {
+            self.intersect_block(&RayBlock::of(rays), rays.len(), &mut found);
+            hits.extend((0..).zip(rays).map(|(k, ray)| self.hit(&found, k, ray)));
         }
+    }
+
+    /// The closest hits of the first `n` rays of a block.
+    pub(super) fn intersect_block(&self, rays: &RayBlock, n: usize, hits: &mut SmallHits) {
+        closest(self, rays, n, hits);
     }
 
     /// Whether the rays hit anything, in order.
     pub(super) fn occluded(&self, rays: &[Ray], occluded: &mut Vec<bool>) {
         occluded.clear();
         occluded.resize(rays.len(), false);
-        for (rays, occluded) in rays.chunks(BATCH).zip(occluded.chunks_mut(BATCH)) {
-            any(self, rays, occluded);
+        for (rays, occluded) in rays.chunks(BLOCK).zip(occluded.chunks_mut(BLOCK)) {
+            any(self, &RayBlock::of(rays), occluded);
+        }
+    }
+
+    /// Whether the first rays of a block hit anything.
+    pub(super) fn occluded_block(&self, rays: &RayBlock, occluded: &mut [bool]) {
+        any(self, rays, occluded);
+    }
+
+    /// [`Self::intersect`] of one ray.
+    #[inline(never)]
+    pub(super) fn intersect_one(&self, ray: &Ray) -> Option<Hit> {
+        let mut pack = Pack::of(ray);
+        let axis = greatest_axis(ray)?;
+        closest_of_pack(self, &mut pack, usize::from(axis));
+        self.hit_at(pack.place[0], [pack.t[0], pack.u[0], pack.v[0]], ray)
+    }
+
+    /// [`Self::occluded`] of one ray.
+    #[inline(never)]
+    pub(super) fn occluded_one(&self, ray: &Ray) -> bool {
+        let mut pack = Pack::of(ray);
+        let Some(axis) = greatest_axis(ray) else {
+            return false;
+        };
+        any_of_pack(self, &mut pack, usize::from(axis));
+        pack.place[0] != NOTHING
+    }
+
+    /// The hit of a ray of a block.
+    #[inline(always)]
+    pub(super) fn hit(&self, hits: &SmallHits, k: usize, ray: &Ray) -> Option<Hit> {
+        self.hit_at(hits.place[k], [hits.t[k], hits.u[k], hits.v[k]], ray)
+    }
+
+    #[inline(always)]
+    fn hit_at(&self, place: u32, [t, u, v]: [f32; 3], ray: &Ray) -> Option<Hit> {
+        if place == NOTHING {
+            return None;
+        }
+        let instance = self.instance;
+        if let Some(face) = self.faces.get(place as usize) {
+            let on = face.at((ray.origin + ray.direction * t).to_array());
+            return Some(Hit {
+                t,
+                u: on.u,
+                v: on.v,
+                primitive: on.primitive,
+                instance,
+            });
+        }
+        let has_coordinates = (place < self.places.balls) | (place >= self.places.patches);
+        let coordinate = |c: f32| if has_coordinates { c } else { 0.0 };
+        Some(Hit {
+            t,
+            u: coordinate(u),
+            v: coordinate(v),
+            primitive: self.primitives[(place - self.places.triangles) as usize],
+            instance,
+        })
+    }
+
+    /// Whether rays are sorted by the axes of their directions.
+    #[inline(always)]
+    fn sorts(&self) -> bool {
+        !self.clusters.is_empty() || !self.patches.is_empty()
+    }
+}
+
+/// Triangles, as what they are tested as.
+struct Solids {
+    rectangles: Vec<Rectangle>,
+    boxes: Vec<Parallelepiped>,
+    faces: Vec<Face>,
+    triangles: Vec<Triangle>,
+}
+
+impl Solids {
+    fn of(triangles: &[Triangle]) -> Self {
+        let (parallelograms, mut triangles_left) = Parallelogram::all(triangles);
+        let (boxes, others) = Parallelepiped::all(&parallelograms);
+        let (mut rectangles, mut faces) = (Vec::new(), Vec::new());
+        for parallelogram in others.into_iter().map(|k| &parallelograms[k]) {
+            if let Some(rectangle) = Rectangle::of(parallelogram) {
+                rectangles.push(rectangle);
+                faces.push(parallelogram.face());
+            } else {
+                let is_own = |t: &&Triangle| parallelogram.primitives().contains(&t.0);
+                triangles_left.extend(triangles.iter().filter(is_own));
+            }
+        }
+        triangles_left.sort_unstable_by_key(|t| t.0);
+        for (_, own) in &boxes {
+            faces.extend(own.map(|k| parallelograms[k].face()));
+        }
+        Self {
+            rectangles,
+            boxes: boxes.into_iter().map(|(solid, _)| solid).collect(),
+            faces,
+            triangles: triangles_left,
         }
     }
 }
 
 /// Rays that can hit, by the axes in which their directions are greatest.
 struct Order {
-    rays: [u16; BATCH],
+    rays: [u16; BLOCK],
     /// Where those of each axis end.
     ends: [usize; 3],
 }
 
 impl Order {
+    /// That of the first `n` rays.
     #[inline(always)]
-    fn new(rays: &[Ray]) -> Self {
+    fn new(rays: &RayBlock, n: usize) -> Self {
         const NEVER: u8 = 3;
-        let mut axes = [NEVER; BATCH];
-        for (ray, axis) in rays.iter().zip(&mut axes) {
-            *axis = greatest_axis(ray).unwrap_or(NEVER);
+        let mut axes = [NEVER; BLOCK];
+        for (k, axis) in axes[..n].iter_mut().enumerate() {
+            *axis = greatest_axis(&rays.get(k)).unwrap_or(NEVER);
         }
         let count = |wanted: u8| axes.iter().filter(|&&axis| axis == wanted).count();
         let [x, y, z] = [0, 1, 2].map(count);
         let mut next = [0, x, x + y, x + y + z];
-        let mut order = [0; BATCH];
-        for (i, axis) in (0..=u16::MAX).zip(&axes[..rays.len()]) {
+        let mut order = [0; BLOCK];
+        for (i, axis) in (0..=u16::MAX).zip(&axes[..n]) {
             let place = &mut next[usize::from(*axis)];
             order[*place] = i;
             *place += 1;
@@ -191,349 +370,62 @@ impl Order {
     }
 }
 
-/// Rays as a structure of arrays, and their closest hits so far.
-struct Pack {
-    origin: [Column; 3],
-    direction: [Column; 3],
-    /// In the order of the shear.
-    sheared_origin: [Column; 3],
-    /// See [`super::frame::RayFrame`].
-    shear: [Column; 3],
-    t: Column,
-    u: Column,
-    v: Column,
-    /// Index in the list of triangles, then of quadrics, then of patches.
-    place: [u32; PACK],
-}
-
-/// The vector in a lane.
-#[inline(always)]
-fn at(columns: &[Column; 3], lane: usize) -> [f32; 3] {
-    [columns[0][lane], columns[1][lane], columns[2][lane]]
-}
-
-#[inline(always)]
-fn set(columns: &mut [Column; 3], lane: usize, values: [f32; 3]) {
-    for k in 0..3 {
-        columns[k][lane] = values[k];
+#[apply(simd_levels)]
+fn closest(small: &SmallScene, rays: &RayBlock, n: usize, hits: &mut SmallHits) {
+    let n = n.min(BLOCK);
+    let mut sheared = Pack::NOTHING_SHEARED;
+    if small.sorts() {
+        hits.place[..n].fill(NOTHING);
+        for (axis, members) in Order::new(rays, n).packs() {
+            let mut pack = Pack::gathered(rays, members);
+            pack.offer_all::<false>(small, axis, &mut sheared);
+            for (lane, &i) in members.iter().enumerate() {
+                let i = usize::from(i) % BLOCK;
+                hits.t[i] = pack.t[lane];
+                hits.u[i] = pack.u[lane];
+                hits.v[i] = pack.v[lane];
+                hits.place[i] = pack.place[lane];
+            }
+        }
+        return;
+    }
+    for from in (0..n).step_by(PACK) {
+        let mut pack = Pack::at(rays, from);
+        pack.offer_all::<false>(small, 0, &mut sheared);
+        hits.t[from..from + PACK].copy_from_slice(&pack.t.0);
+        hits.place[from..from + PACK].copy_from_slice(&pack.place);
     }
 }
 
-/// Where rays end of which nothing more is asked: nothing is hit.
-const ENDED: f32 = -1.0;
-
-/// A cluster's corners, sheared.
-type Sheared = [[Column; 3]; CORNERS];
-
-/// No triangle, quadric or patch.
-const NOTHING: u32 = u32::MAX;
-
-impl Pack {
-    #[inline(always)]
-    fn new(rays: &[Ray], pack: &[u16], axis: usize) -> Self {
-        let (mut origin, mut direction) = ([Column::ZERO; 3], [Column([1.0; PACK]); 3]);
-        let mut t = Column([ENDED; PACK]);
-        for (lane, &i) in pack.iter().enumerate() {
-            let ray = &rays[usize::from(i)];
-            let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
-            for k in 0..3 {
-                origin[k][lane] = o[k];
-                direction[k][lane] = d[k];
+#[apply(simd_levels)]
+fn any(small: &SmallScene, rays: &RayBlock, occluded: &mut [bool]) {
+    let mut sheared = Pack::NOTHING_SHEARED;
+    if small.sorts() {
+        occluded.fill(false);
+        for (axis, members) in Order::new(rays, occluded.len().min(BLOCK)).packs() {
+            let mut pack = Pack::gathered(rays, members);
+            pack.offer_all::<true>(small, axis, &mut sheared);
+            for (lane, &i) in members.iter().enumerate() {
+                occluded[usize::from(i)] = pack.place[lane] != NOTHING;
             }
-            t[lane] = ray.t_max;
         }
-        let [x, y, z] = [(axis + 1) % 3, (axis + 2) % 3, axis];
-        let mut shear = [Column::ZERO; 3];
-        for lane in 0..PACK {
-            let dz = direction[z][lane];
-            shear[0][lane] = direction[x][lane] / dz;
-            shear[1][lane] = direction[y][lane] / dz;
-            shear[2][lane] = 1.0 / dz;
-        }
-        Self {
-            origin,
-            direction,
-            sheared_origin: [origin[x], origin[y], origin[z]],
-            shear,
-            t,
-            u: Column::ZERO,
-            v: Column::ZERO,
-            place: [NOTHING; PACK],
-        }
+        return;
     }
-
-    /// Updates the hits by a cluster of triangles.
-    ///
-    /// * `place`: index of the first triangle.
-    /// * `sheared`: scratch memory for corners.
-    #[inline(always)]
-    fn offer_cluster<const ANY: bool>(
-        &mut self,
-        cluster: &Cluster,
-        axis: usize,
-        place: u32,
-        sheared: &mut Sheared,
-    ) {
-        if ANY
-            && let Some(plane) = &cluster.plane
-            && !self.crosses(plane, cluster.reach[axis])
-        {
-            return;
-        }
-        let (o, s) = (&self.sheared_origin, &self.shear);
-        for (corner, p) in cluster.corners[axis].iter().zip(&mut *sheared) {
-            for lane in 0..PACK {
-                set(p, lane, triangle::shear(*corner, at(o, lane), at(s, lane)));
-            }
-        }
-        // Which triangles the line of any ray passes through: to branch at each would be to guess each.
-        let mut reached = 0_u64;
-        for (k, corners) in cluster.triangles.iter().enumerate() {
-            let p = corners.map(|c| &sheared[usize::from(c) % CORNERS]);
-            let mut some = 0;
-            for lane in 0..PACK {
-                let [a, b, c] = p.map(|corner| at(corner, lane));
-                some |= u32::from(triangle::same_sign(triangle::edge_functions(a, b, c)));
-            }
-            reached |= u64::from(some != 0) << (k % MOST);
-        }
-        while reached != 0 {
-            let k = reached.trailing_zeros();
-            reached &= reached - 1;
-            let corners = cluster.triangles[k as usize];
-            let p = corners.map(|c| &sheared[usize::from(c) % CORNERS]);
-            if ANY {
-                self.occlude(p, cluster.reach[axis]);
-            } else {
-                self.offer(p, place + k);
-            }
-        }
-    }
-
-    /// Whether any ray may pass from one side of a plane to the other before its end.
-    ///
-    /// The rounding of a triangle's distance moves its point by less than `16 u` of `farthest` along any axis, as the
-    /// direction is greatest along z.
-    ///
-    /// * `reach`: as for [`Self::occlude`].
-    #[inline(always)]
-    fn crosses(&self, plane: &Plane, reach: f32) -> bool {
-        const SLACK: f32 = 16.0 * f32::EPSILON;
-        let [from, to] = plane.range;
-        let (o, d) = (&self.origin[plane.axis], &self.direction[plane.axis]);
-        let mut some = 0;
-        for lane in 0..PACK {
-            let (o, t) = (o[lane], self.t[lane]);
-            let end = o + d[lane] * t;
-            let farthest = reach + self.sheared_origin[2][lane].abs();
-            let slack = SLACK * (farthest + o.abs() + end.abs());
-            // An infinite end is on the side that the ray leads to, and none where it leads to neither.
-            let [below, above] = [end + slack < from, end - slack > to];
-            let [below, above] = [
-                below | (end == f32::NEG_INFINITY),
-                above | (end == f32::INFINITY),
-            ];
-            let stays = ((o < from) & below) | ((o > to) & above) | (t <= 0.0);
-            some |= u32::from(!stays);
-        }
-        some != 0
-    }
-
-    /// Updates the closest hits by a triangle.
-    ///
-    /// * `p`: its corners, sheared.
-    #[inline(always)]
-    fn offer(&mut self, p: [&[Column; 3]; 3], place: u32) {
-        let dz = &self.shear[2];
-        for lane in 0..PACK {
-            let [a, b, c] = p.map(|corner| at(corner, lane));
-            let weights = triangle::edge_functions(a, b, c);
-            let (t, u, v) = triangle::distance(weights, [a[2], b[2], c[2]], dz[lane]);
-            let closer = triangle::same_sign(weights) & (t > 0.0) & (t < self.t[lane]);
-            self.t[lane] = if closer { t } else { self.t[lane] };
-            self.u[lane] = if closer { u } else { self.u[lane] };
-            self.v[lane] = if closer { v } else { self.v[lane] };
-            self.place[lane] = if closer { place } else { self.place[lane] };
-        }
-    }
-
-    /// Ends the rays that a triangle occludes; see [`Self::end`].
-    ///
-    /// Most triangles that the lines of shadow rays pass through lie behind or beyond them, which is told before
-    /// anything is divided.
-    ///
-    /// * `p`: as for [`Self::offer`].
-    /// * `reach`: bound on the absolute values of the corners' coordinates z.
-    #[inline(always)]
-    fn occlude(&mut self, p: [&[Column; 3]; 3], reach: f32) {
-        let mut some = 0;
-        for lane in 0..PACK {
-            let [a, b, c] = p.map(|corner| at(corner, lane));
-            let weights = triangle::edge_functions(a, b, c);
-            let farthest = reach + self.sheared_origin[2][lane].abs();
-            let z = [a[2], b[2], c[2]];
-            let apart =
-                triangle::is_apart(weights, z, self.shear[2][lane], (self.t[lane], farthest));
-            some |= u32::from(triangle::same_sign(weights) & !apart);
-        }
-        if some == 0 {
-            return;
-        }
-        for lane in 0..PACK {
-            let [a, b, c] = p.map(|corner| at(corner, lane));
-            let weights = triangle::edge_functions(a, b, c);
-            let (t, _, _) = triangle::distance(weights, [a[2], b[2], c[2]], self.shear[2][lane]);
-            let occluded = triangle::same_sign(weights) & (t > 0.0) & (t < self.t[lane]);
-            self.end(lane, occluded);
-        }
-    }
-
-    /// Ends a ray if something occludes it: nothing lies before its new end.
-    #[inline(always)]
-    fn end(&mut self, lane: usize, occluded: bool) {
-        self.t[lane] = if occluded { ENDED } else { self.t[lane] };
-        self.place[lane] = if occluded { 0 } else { self.place[lane] };
-    }
-
-    /// Updates the hits by a quadric.
-    #[inline(always)]
-    fn offer_quadric<const ANY: bool>(&mut self, quadric: &PreparedQuadric, place: u32) {
-        let [mut o, mut d] = [[[0.0; PACK]; 3]; 2];
-        for lane in 0..PACK {
-            let origin = [0, 1, 2].map(|k| f64::from(self.origin[k][lane]));
-            let direction = [0, 1, 2].map(|k| f64::from(self.direction[k][lane]));
-            let (origin, direction) = quadric.enter(origin, direction);
-            for k in 0..3 {
-                o[k][lane] = origin[k];
-                d[k][lane] = direction[k];
-            }
-        }
-        let (o, d) = (
-            |lane: usize| [0, 1, 2].map(|k: usize| o[k][lane]),
-            |lane: usize| [0, 1, 2].map(|k: usize| d[k][lane]),
-        );
-        let mut t = [0.0; PACK];
-        let mut is_hit = [1_u32; PACK];
-        match quadric.shape() {
-            QuadricShape::Disk { radius, height } => {
-                for lane in 0..PACK {
-                    t[lane] = quadric::disk(o(lane), d(lane), radius, height);
-                }
-            }
-            QuadricShape::Part(part) => {
-                for lane in 0..PACK {
-                    t[lane] = quadric::part_distance(o(lane), d(lane), &part);
-                }
-            }
-            QuadricShape::Sphere { radius } => {
-                let mut some = 0;
-                for lane in 0..PACK {
-                    let near = Approach::new(o(lane), d(lane), radius);
-                    is_hit[lane] = u32::from(near.hits());
-                    some |= is_hit[lane];
-                }
-                if some == 0 {
-                    return;
-                }
-                for lane in 0..PACK {
-                    let near = Approach::new(o(lane), d(lane), radius);
-                    t[lane] = near.t(o(lane), radius);
-                }
-            }
-        }
-        for lane in 0..PACK {
-            let closer = (is_hit[lane] != 0) & (t[lane] > 0.0) & (t[lane] < self.t[lane]);
-            if ANY {
-                self.end(lane, closer);
-                continue;
-            }
-            self.t[lane] = if closer { t[lane] } else { self.t[lane] };
-            self.u[lane] = if closer { 0.0 } else { self.u[lane] };
-            self.v[lane] = if closer { 0.0 } else { self.v[lane] };
-            self.place[lane] = if closer { place } else { self.place[lane] };
-        }
-    }
-
-    /// Updates the hits by a patch.
-    ///
-    /// * `axes`: of the rays' directions, the greatest last.
-    #[inline(always)]
-    fn offer_patch<const ANY: bool>(&mut self, patch: &PreparedPatch, axes: [u8; 3], place: u32) {
-        for lane in 0..PACK {
-            if self.t[lane] <= 0.0 {
-                continue;
-            }
-            let ray = Ray {
-                origin: Vec3::from(at(&self.origin, lane)),
-                direction: Vec3::from(at(&self.direction, lane)),
-                t_max: self.t[lane],
-            };
-            let hit = patch.hit(&ray, axes);
-            let closer = (hit.t > 0.0) & (hit.t < self.t[lane]);
-            if ANY {
-                self.end(lane, closer);
-            } else if closer {
-                self.t[lane] = hit.t;
-                self.u[lane] = hit.u;
-                self.v[lane] = hit.v;
-                self.place[lane] = place;
-            }
-        }
-    }
-
-    /// Updates the hits by all primitives: the closest ones, or just whether there are any.
-    #[inline(always)]
-    fn offer_all<const ANY: bool>(
-        &mut self,
-        small: &SmallScene,
-        axis: usize,
-        sheared: &mut Sheared,
-    ) {
-        let mut place = 0;
-        let clusters = if ANY {
-            &small.occluders
-        } else {
-            &small.clusters
-        };
-        for cluster in clusters {
-            self.offer_cluster::<ANY>(cluster, axis, place, sheared);
-            place += crate::convert::id(cluster.triangles.len());
-        }
-        for (place, quadric) in (small.first_quadric..).zip(&small.quadrics) {
-            self.offer_quadric::<ANY>(quadric, place);
-        }
-        for (place, patch) in (small.first_patch..).zip(&small.patches) {
-            self.offer_patch::<ANY>(patch, AXES[axis], place);
+    for (nth, occluded) in occluded.chunks_mut(PACK).take(BLOCK / PACK).enumerate() {
+        let mut pack = Pack::at(rays, nth * PACK);
+        pack.offer_all::<true>(small, 0, &mut sheared);
+        for (occluded, place) in occluded.iter_mut().zip(&pack.place) {
+            *occluded = *place != NOTHING;
         }
     }
 }
 
 #[apply(simd_levels)]
-fn closest(small: &SmallScene, rays: &[Ray], hits: &mut [Option<Hit>]) {
-    let mut sheared = [[Column::ZERO; 3]; CORNERS];
-    for (axis, members) in Order::new(rays).packs() {
-        let mut pack = Pack::new(rays, members, axis);
-        pack.offer_all::<false>(small, axis, &mut sheared);
-        for (lane, &i) in members.iter().enumerate() {
-            hits[usize::from(i)] = (pack.place[lane] != NOTHING).then(|| Hit {
-                t: pack.t[lane],
-                u: pack.u[lane],
-                v: pack.v[lane],
-                primitive: small.primitives[pack.place[lane] as usize],
-                instance: small.instance,
-            });
-        }
-    }
+fn closest_of_pack(small: &SmallScene, pack: &mut Pack, axis: usize) {
+    pack.offer_all::<false>(small, axis, &mut Pack::NOTHING_SHEARED.clone());
 }
 
 #[apply(simd_levels)]
-fn any(small: &SmallScene, rays: &[Ray], occluded: &mut [bool]) {
-    let mut sheared = [[Column::ZERO; 3]; CORNERS];
-    for (axis, members) in Order::new(rays).packs() {
-        let mut pack = Pack::new(rays, members, axis);
-        pack.offer_all::<true>(small, axis, &mut sheared);
-        for (lane, &i) in members.iter().enumerate() {
-            occluded[usize::from(i)] = pack.place[lane] != NOTHING;
-        }
-    }
+fn any_of_pack(small: &SmallScene, pack: &mut Pack, axis: usize) {
+    pack.offer_all::<true>(small, axis, &mut Pack::NOTHING_SHEARED.clone());
 }

@@ -5,6 +5,9 @@ use super::Bounds;
 /// Corners of a cluster: those of a box. A power of two.
 pub(super) const CORNERS: usize = 8;
 
+/// Most triangles of a cluster: the bits of a mask.
+pub(super) const TRIANGLES: usize = 64;
+
 /// Triangles one after the other, and the corners that they share.
 #[derive(Clone, Debug)]
 pub(super) struct Cluster {
@@ -123,7 +126,7 @@ impl Cluster {
                 all.len() - 1
             })
         });
-        if all.len() > CORNERS {
+        if all.len() > CORNERS || self.triangles.len() >= TRIANGLES {
             return false;
         }
         for p in corners {

@@ -4,11 +4,12 @@
 //! Each ray visits the nodes that [`super::traverse`] would visit. That traversal is separate because it is faster where
 //! nothing has to be loaded: its state stays in registers.
 
+use super::Hit;
+use super::block::Rays;
 use super::frame::RayFrame;
 use super::kernel::{EntryStack, Kernel};
 use super::node::{Child, Lanes, Node8};
 use super::traverse::{ClosestHit, GroupLeaves, Leaves, Scene, child_of};
-use super::{Hit, Ray};
 
 /// Rays that are interleaved. Measured: `cargo xtask rays`.
 const RAYS: usize = 8;
@@ -19,38 +20,45 @@ const COHERENT: f32 = 0.9;
 
 /// [`super::traverse::intersect`] of each ray; `hits` are as many, and `None`.
 #[inline(always)]
-pub(super) fn intersect<K: Kernel>(
+pub(super) fn intersect<K: Kernel, R: Rays + ?Sized>(
     kernel: K,
     scene: &Scene,
-    rays: &[Ray],
+    rays: &R,
     hits: &mut [Option<Hit>],
 ) {
-    cast::<K, false>(kernel, scene, rays, |ray, best| hits[ray] = best.hit());
+    cast::<K, R, false>(kernel, scene, rays, |ray, best| hits[ray] = best.hit());
 }
 
 /// [`super::traverse::occluded`] of each ray; `occluded` are as many, and `false`.
 #[inline(always)]
-pub(super) fn occluded<K: Kernel>(kernel: K, scene: &Scene, rays: &[Ray], occluded: &mut [bool]) {
-    cast::<K, true>(kernel, scene, rays, |ray, best| {
+pub(super) fn occluded<K: Kernel, R: Rays + ?Sized>(
+    kernel: K,
+    scene: &Scene,
+    rays: &R,
+    occluded: &mut [bool],
+) {
+    cast::<K, R, true>(kernel, scene, rays, |ray, best| {
         occluded[ray] = best.hit().is_some()
     });
 }
 
 /// Whether interleaving is faster: where there is one group, larger than the caches, and the rays are incoherent.
-pub(super) fn gains(scene: &Scene, rays: &[Ray]) -> bool {
+pub(super) fn gains<R: Rays + ?Sized>(scene: &Scene, rays: &R) -> bool {
     let bytes = size_of_val(scene.nodes.as_slice()) + size_of_val(scene.packets.as_slice());
     scene.single.is_some() && bytes > IN_CACHE && !are_coherent(rays)
 }
 
 /// Whether all directions are close to the first.
-fn are_coherent(rays: &[Ray]) -> bool {
-    let Some(axis) = rays.first().map(|ray| ray.direction) else {
+fn are_coherent<R: Rays + ?Sized>(rays: &R) -> bool {
+    if rays.count() == 0 {
         return true;
-    };
+    }
+    let axis = rays.ray(0).direction;
     let least = COHERENT * axis.length_squared();
-    rays.iter().all(|ray| {
-        let along = ray.direction.dot(axis);
-        along > 0.0 && along * along > least * ray.direction.length_squared()
+    (0..rays.count()).all(|k| {
+        let direction = rays.ray(k).direction;
+        let along = direction.dot(axis);
+        along > 0.0 && along * along > least * direction.length_squared()
     })
 }
 
@@ -71,18 +79,19 @@ struct RayInFlight<S> {
 ///
 /// * `ANY`: stops at any hit.
 #[inline(always)]
-fn cast<K: Kernel, const ANY: bool>(
+fn cast<K: Kernel, R: Rays + ?Sized, const ANY: bool>(
     kernel: K,
     scene: &Scene,
-    rays: &[Ray],
+    rays: &R,
     mut done: impl FnMut(usize, &ClosestHit),
 ) {
     let (Some(root), Some(instance)) = (scene.root, scene.single) else {
         return;
     };
     let leaves = GroupLeaves { scene, instance };
-    let mut waiting = rays.iter().enumerate().filter_map(|(index, ray)| {
-        let frame = RayFrame::new(ray)?;
+    let mut waiting = (0..rays.count()).filter_map(|index| {
+        let ray = rays.ray(index);
+        let frame = RayFrame::new(&ray)?;
         Some((index, frame, ClosestHit::new(ray.t_max)))
     });
     let mut in_flight: [Option<RayInFlight<K::Stack>>; RAYS] = std::array::from_fn(|_| {

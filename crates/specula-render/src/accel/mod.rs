@@ -13,13 +13,16 @@
 //!   built in chunks, which are a function of the input alone: the tree never depends on the number
 //!   of threads.
 //! - **Ties.** Of hits with equal `t` the smallest `(instance, primitive)` wins, whatever the order
-//!   of traversal.
-//! - **No leaks.** A ray from inside a closed mesh hits it: `triangle.rs` and `patch.rs` have the arguments.
+//!   of traversal; in small scenes, among primitives that are tested alike.
+//! - **No leaks.** A ray from inside a closed mesh hits it: `triangle.rs`, `patch.rs`, `rectangle.rs` and
+//!   `parallelepiped.rs` have the arguments.
 //! - **A batch is its rays one by one.** Batches in small scenes (`brute_force.rs`) and of incoherent rays in large
 //!   trees (`interleaved.rs`) are computed otherwise, with the same hits bit for bit.
 //! - **It cannot fail.** Rays that are not finite hit nothing; indices are checked at build.
 
+mod ball;
 mod binary;
+mod block;
 mod bounds;
 mod brute_force;
 mod chunks;
@@ -35,9 +38,13 @@ mod interleaved;
 mod kernel;
 mod moving;
 mod node;
+mod pack;
+mod parallelepiped;
+mod parallelogram;
 mod patch;
 mod predicted;
 mod quadric;
+mod rectangle;
 mod traverse;
 mod triangle;
 
@@ -46,6 +53,7 @@ mod avx2;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use block::{BLOCK, BlockHits, RayBlock};
 pub use bounds::Bounds;
 pub use curve::{CurveSegment, CurveShape};
 pub use input::{AccelError, Group, Instance};
@@ -55,6 +63,7 @@ pub(crate) use triangle::has_area;
 
 #[cfg(target_arch = "x86_64")]
 use avx2::Avx2;
+use block::Rays;
 use brute_force::SmallScene;
 use collapse::Tree;
 use group::GroupTree;
@@ -251,6 +260,9 @@ impl Accel {
     /// The first hit of the ray.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        if let Some(small) = self.small_with_own_tests() {
+            return small.intersect_one(ray);
+        }
         match self.kernel {
             KernelChoice::Portable => traverse::intersect(Portable, &self.scene, ray),
             #[cfg(target_arch = "x86_64")]
@@ -261,11 +273,19 @@ impl Accel {
     /// Whether the ray hits any surface: whether [`Accel::intersect`] returns a hit, but faster.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
+        if let Some(small) = self.small_with_own_tests() {
+            return small.occluded_one(ray);
+        }
         match self.kernel {
             KernelChoice::Portable => traverse::occluded(Portable, &self.scene, ray),
             #[cfg(target_arch = "x86_64")]
             KernelChoice::Avx2(kernel) => kernel.occluded(&self.scene, ray),
         }
+    }
+
+    #[inline(always)]
+    fn small_with_own_tests(&self) -> Option<&SmallScene> {
+        self.small.as_ref().filter(|small| small.has_own_tests())
     }
 
     /// [`Accel::intersect`] of each ray, in order: the same answers, but faster for many rays.
@@ -274,10 +294,32 @@ impl Accel {
         if let Some(small) = &self.small {
             return small.intersect(rays, hits);
         }
-        if !interleaved::gains(&self.scene, rays) {
-            return hits.extend(rays.iter().map(|ray| self.intersect(ray)));
+        self.intersect_in_tree(rays, hits);
+    }
+
+    /// Of a small scene the primitives at each place, one of them twice where there is one, and the instance.
+    pub(crate) fn small_primitives(&self) -> Option<(Vec<[u32; 2]>, u32)> {
+        self.small.as_ref().map(SmallScene::primitives)
+    }
+
+    /// The closest hits of the first `n` rays of a block.
+    pub(crate) fn intersect_block(&self, (rays, n): (&RayBlock, usize), hits: &mut BlockHits) {
+        match &self.small {
+            Some(small) => small.intersect_block(rays, n, &mut hits.small),
+            None => {
+                hits.hits.clear();
+                self.intersect_in_tree(&(rays, n), &mut hits.hits);
+            }
         }
-        hits.resize(rays.len(), None);
+    }
+
+    /// Appends the hits of rays.
+    fn intersect_in_tree<R: Rays + ?Sized>(&self, rays: &R, hits: &mut Vec<Option<Hit>>) {
+        let n = rays.count();
+        if !interleaved::gains(&self.scene, rays) {
+            return hits.extend((0..n).map(|k| self.intersect(&rays.ray(k))));
+        }
+        hits.resize(n, None);
         match self.kernel {
             KernelChoice::Portable => interleaved::intersect(Portable, &self.scene, rays, hits),
             #[cfg(target_arch = "x86_64")]
@@ -291,10 +333,28 @@ impl Accel {
         if let Some(small) = &self.small {
             return small.occluded(rays, occluded);
         }
-        if !interleaved::gains(&self.scene, rays) {
-            return occluded.extend(rays.iter().map(|ray| self.occluded(ray)));
+        self.occluded_in_tree(rays, occluded);
+    }
+
+    /// Whether the first `n` rays of a block hit anything.
+    pub(crate) fn occluded_block(&self, (rays, n): (&RayBlock, usize), occluded: &mut Vec<bool>) {
+        occluded.clear();
+        match &self.small {
+            Some(small) => {
+                occluded.resize(n, false);
+                small.occluded_block(rays, occluded);
+            }
+            None => self.occluded_in_tree(&(rays, n), occluded),
         }
-        occluded.resize(rays.len(), false);
+    }
+
+    /// Appends whether rays hit anything.
+    fn occluded_in_tree<R: Rays + ?Sized>(&self, rays: &R, occluded: &mut Vec<bool>) {
+        let n = rays.count();
+        if !interleaved::gains(&self.scene, rays) {
+            return occluded.extend((0..n).map(|k| self.occluded(&rays.ray(k))));
+        }
+        occluded.resize(n, false);
         match self.kernel {
             KernelChoice::Portable => interleaved::occluded(Portable, &self.scene, rays, occluded),
             #[cfg(target_arch = "x86_64")]

@@ -4,7 +4,7 @@
 
 use super::kernel::Portable;
 use super::traverse;
-use super::{Accel, Hit, KernelChoice, Ray};
+use super::{Accel, BlockHits, Hit, KernelChoice, Ray, RayBlock};
 
 impl Accel {
     /// Whether any instance moves: only then times matter.
@@ -38,35 +38,33 @@ impl Accel {
         }
     }
 
-    /// [`Accel::intersect_all`] of rays with times, which are asked for where something moves.
+    /// [`Accel::intersect_block`] of rays with times, which are asked for where something moves.
     ///
     /// * `time`: by the ray's index.
-    pub(crate) fn intersect_all_at(
+    pub(crate) fn intersect_block_at(
         &self,
-        rays: &[Ray],
+        (rays, n): (&RayBlock, usize),
         time: impl Fn(usize) -> f32,
-        hits: &mut Vec<Option<Hit>>,
+        hits: &mut BlockHits,
     ) {
         if !self.moves() {
-            return self.intersect_all(rays, hits);
+            return self.intersect_block((rays, n), hits);
         }
-        hits.clear();
-        let rays = rays.iter().enumerate();
-        hits.extend(rays.map(|(i, ray)| self.intersect_at(ray, time(i))));
+        hits.hits.clear();
+        (hits.hits).extend((0..n).map(|k| self.intersect_at(&rays.get(k), time(k))));
     }
 
-    /// [`Accel::occluded_all`] of rays with times, as of [`Accel::intersect_all_at`].
-    pub(crate) fn occluded_all_at(
+    /// [`Accel::occluded_block`] of rays with times, as of [`Accel::intersect_block_at`].
+    pub(crate) fn occluded_block_at(
         &self,
-        rays: &[Ray],
+        (rays, n): (&RayBlock, usize),
         time: impl Fn(usize) -> f32,
         occluded: &mut Vec<bool>,
     ) {
         if !self.moves() {
-            return self.occluded_all(rays, occluded);
+            return self.occluded_block((rays, n), occluded);
         }
         occluded.clear();
-        let rays = rays.iter().enumerate();
-        occluded.extend(rays.map(|(i, ray)| self.occluded_at(ray, time(i))));
+        occluded.extend((0..n).map(|k| self.occluded_at(&rays.get(k), time(k))));
     }
 }

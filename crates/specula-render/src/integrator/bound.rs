@@ -15,10 +15,11 @@ use specula_bsdf::{Bsdf, Rgb, Transport, Vec3};
 
 use super::own_lobes::OwnLobes;
 use super::path_states::PathStates;
+use super::ray_queue::{RayQueue, index};
 use super::vertex_batch::{self, LightSamples, ScatterSamples, Surfaces, Vectors, VertexBatch};
-use super::wavefront::{MaterialRun, RayQueue, Wavefront, index};
+use super::wavefront::{MaterialRun, Wavefront};
 use super::{PathTracer, ShadingPoint, estimator};
-use crate::accel::{Hit, Ray};
+use crate::accel::{Accel, BlockHits, Hit, Ray};
 use crate::bump::Softness;
 use crate::film::ScatterCounts;
 use crate::geometry::{Coordinates, NONE, PrimitiveLocation, Surface};
@@ -58,8 +59,8 @@ enum BoundLobe {
 /// Where a path hits a vertex of the batch.
 #[derive(Clone, Copy)]
 struct Arrival<'a> {
-    ray: &'a Ray,
-    hit: &'a Hit,
+    ray: Ray,
+    hit: Hit,
     cone: RayCone,
     time: f32,
     sampler: &'a Sampler,
@@ -171,11 +172,15 @@ impl PathTracer<'_> {
             let is_bent = materials.is_bent(run.key / 2);
             let needs_tangent = !materials.takes_any_tangent(run.key / 2);
             for i in run.range() {
+                if batch.on_face[i] {
+                    continue;
+                }
                 let k = batch.live_indices[i] as usize;
-                match &hits[k] {
+                let ray = live.ray(k);
+                match hits.get(&self.scene.geometry.accel, k, &ray) {
                     Some(hit) if !is_bent => {
                         let time = || paths.times[live.index(k)];
-                        let ray = (live.ray(k), hit, time);
+                        let ray = (&ray, &hit, time);
                         self.load_surface((batch, quadrics), i, ray, needs_tangent);
                     }
                     // It is set when its lobe is bound.
@@ -200,7 +205,7 @@ impl PathTracer<'_> {
         } = wavefront;
         let counts = &mut tally.vertices;
         let scene = self.scene;
-        let from = (&**paths, &**live, &hits[..]);
+        let from = (&**paths, &**live, &**hits);
         bound.clear();
         own_lobes.clear();
         for run in runs.iter_mut() {
@@ -216,7 +221,7 @@ impl PathTracer<'_> {
                     continue;
                 };
                 for i in run.range() {
-                    let Some(arrival) = arrival(from, batch, i) else {
+                    let Some(arrival) = arrival(&scene.geometry.accel, from, batch, i) else {
                         continue;
                     };
                     let place = self.textured_surface(&batch.surfaces, i, &arrival).place();
@@ -231,7 +236,7 @@ impl PathTracer<'_> {
             run.first_bound = bound.len();
             let is_bent = scene.materials.is_bent(run.key / 2);
             for i in run.range() {
-                let Some(arrival) = arrival(from, batch, i) else {
+                let Some(arrival) = arrival(&scene.geometry.accel, from, batch, i) else {
                     continue;
                 };
                 let s = &mut batch.surfaces;
@@ -289,8 +294,8 @@ impl PathTracer<'_> {
         depth: u32,
     ) -> BoundVertex {
         let Arrival {
-            ray,
-            hit,
+            ref ray,
+            ref hit,
             cone,
             time,
             sampler,
@@ -310,8 +315,8 @@ impl PathTracer<'_> {
     /// The surface of a vertex as its textures see it, by what the batch knows.
     fn textured_surface(&self, s: &Surfaces, i: usize, arrival: &Arrival<'_>) -> Surface {
         let Arrival {
-            ray,
-            hit,
+            ref ray,
+            ref hit,
             cone,
             time,
             ..
@@ -431,15 +436,17 @@ impl PathTracer<'_> {
 ///
 /// * `i`: its index.
 fn arrival<'a>(
-    (paths, live, hits): (&'a PathStates, &'a RayQueue, &'a [Option<Hit>]),
+    accel: &Accel,
+    (paths, live, hits): (&'a PathStates, &RayQueue, &BlockHits),
     batch: &VertexBatch,
     i: usize,
 ) -> Option<Arrival<'a>> {
     let k = batch.live_indices[i] as usize;
     let path = live.index(k);
+    let ray = live.ray(k);
     Some(Arrival {
-        ray: live.ray(k),
-        hit: hits[k].as_ref()?,
+        ray,
+        hit: hits.get(accel, k, &ray)?,
         cone: paths.cones[path],
         time: paths.times[path],
         sampler: &paths.samplers[path],

@@ -5,9 +5,10 @@ use core::ops::Range;
 use specula_bsdf::math::Stream;
 
 use super::bound::{self, BoundVertex};
+use super::ray_queue::index;
 use super::shade::fill_streams;
 use super::vertex_batch::{self, LightSamples, Surfaces, Vectors, VertexBatch, WAVEFRONT_SIZE};
-use super::wavefront::{MaterialRun, Wavefront, index};
+use super::wavefront::{MaterialRun, Wavefront};
 use super::{PathTracer, candidates, estimator};
 use crate::accel::Ray;
 use crate::convert::id;
@@ -263,11 +264,11 @@ impl PathTracer<'_> {
                     estimator::SHADOW_RAY_END
                 },
             };
-            shadow_rays.push(id(i), ray);
+            shadow_rays.push(id(i), &ray);
         }
         let accel = &self.scene.geometry.accel;
         let time = |k| paths.times[index(batch.path_indices[shadow_rays.index(k)])];
-        accel.occluded_all_at(shadow_rays.rays(), time, occluded);
+        accel.occluded_block_at(shadow_rays.rays(), time, occluded);
         tally.rays += shadow_rays.len() as u64;
         for (k, &is_occluded) in occluded.iter().enumerate() {
             let i = shadow_rays.index(k);
@@ -279,7 +280,7 @@ impl PathTracer<'_> {
                 }
                 // What is in the way may let it pass. It counts its rays.
                 tally.rays -= 1;
-                let ray = *shadow_rays.ray(k);
+                let ray = shadow_rays.ray(k);
                 let end = (!a.is_infinite[i]).then(|| a.target.get(i));
                 let way = (batch.surfaces.position.get(i), end);
                 let by_chance = (&paths.samplers[path], depth);

@@ -5,10 +5,10 @@ use specula_bsdf::batch::SampleOutcome;
 use specula_bsdf::bsdf::Event;
 
 use super::path_states::PathStates;
+use super::ray_queue::{RayQueue, index};
 use super::vertex_batch::VertexBatch;
-use super::wavefront::{RayQueue, index};
 use super::{PathState, PathTracer, ShadingPoint};
-use crate::accel::{Hit, Ray};
+use crate::accel::{BlockHits, Ray};
 use crate::geometry::Surface;
 use crate::ray_cone::{Bounce, RayCone};
 use crate::sampler::Sampler;
@@ -93,16 +93,16 @@ impl PathTracer<'_> {
     #[inline]
     pub(super) fn spread_cone_of_batch(
         &self,
-        (paths, live, hits): (&mut PathStates, &RayQueue, &[Option<Hit>]),
+        (paths, live, hits): (&mut PathStates, &RayQueue, &BlockHits),
         batch: &VertexBatch,
         i: usize,
         eta: f32,
     ) {
         let k = batch.live_indices[i] as usize;
-        let Some(hit) = &hits[k] else {
+        let (ray, path) = (live.ray(k), index(batch.path_indices[i]));
+        let Some(hit) = hits.get(&self.scene.geometry.accel, k, &ray) else {
             return;
         };
-        let (ray, path) = (live.ray(k), index(batch.path_indices[i]));
         let scatter = &batch.scatter_samples;
         let bounce = match scatter.outcome[i] {
             SampleOutcome::SpecularTransmission => Bounce::Refraction { eta },
@@ -113,7 +113,7 @@ impl PathTracer<'_> {
         };
         let time = paths.times[path];
         let curvature = || {
-            let surface = self.scene.geometry.surface(ray, hit, time);
+            let surface = self.scene.geometry.surface(&ray, &hit, time);
             self.curvature_from(&surface, -ray.direction.dot(surface.ng))
         };
         let cone = paths.cones[path].at(hit.t);

@@ -2,8 +2,8 @@
 
 use super::PathTracer;
 use super::path_states::PathStates;
+use super::ray_queue::RayQueue;
 use super::vertex_batch::Floats;
-use super::wavefront::RayQueue;
 use crate::accel::Ray;
 use crate::convert::id;
 
@@ -33,7 +33,7 @@ impl PathTracer<'_> {
                     direction,
                     t_max,
                 };
-                live.push(id(i), ray);
+                live.push(id(i), &ray);
             }
         }
     }

@@ -13,8 +13,8 @@ use specula_bsdf::bsdf::{Gltf, Lobe, Principled, RoughConductor, RoughDielectric
 use specula_bsdf::{Alpha, Transport, Vec3};
 
 use super::estimator;
+use super::ray_queue::index;
 use super::vertex_batch::{LightSamples, ScatterSamples, Surfaces};
-use super::wavefront::index;
 use crate::convert::id;
 
 /// The vertices, by kind of lobe.

@@ -11,11 +11,12 @@ use specula_bsdf::{Bsdf, Vec3};
 use super::bound::{self, Exit};
 use super::path_states::PathStates;
 use super::quadrics::VerticesOnQuadrics;
+use super::ray_queue::{RayQueue, index};
 use super::sharing::Shared;
 use super::vertex_batch::{self, VertexBatch, WAVEFRONT_SIZE};
-use super::wavefront::{MaterialRun, RayQueue, Wavefront, index};
+use super::wavefront::{MaterialRun, Wavefront};
 use super::{PathTracer, estimator};
-use crate::accel::{Hit, Ray};
+use crate::accel::{BlockHits, Hit, Ray};
 use crate::convert::id;
 use crate::material::{Plain, lobes};
 use crate::sampler::Purpose;
@@ -24,13 +25,17 @@ impl PathTracer<'_> {
     /// Takes the paths of the batch from this vertex to the next.
     pub(super) fn shade_batch(&self, wavefront: &mut Wavefront, depth: u32) {
         wavefront.quadrics.clear();
+        wavefront.batch.triangles.count = 0;
+        self.load_faces(wavefront);
         self.load_vertices(wavefront);
         self.load_bound(wavefront);
         let batch = &mut *wavefront.batch;
         let n = batch.count;
         let geometry = &self.scene.geometry;
         wavefront.quadrics.locate(geometry, &mut batch.surfaces);
-        vertex_batch::interpolate_triangles(n, &batch.triangles, &mut batch.surfaces);
+        if batch.triangles.count > 0 {
+            vertex_batch::interpolate_triangles(n, &batch.triangles, &mut batch.surfaces);
+        }
         vertex_batch::face_viewers(n, &mut batch.surfaces);
         for (plain, range) in self.material_runs(&wavefront.runs) {
             if plain.specular {
@@ -120,10 +125,10 @@ impl PathTracer<'_> {
         } = &mut **batch;
         for i in 0..WAVEFRONT_SIZE.min(*count) {
             let k = live_indices[i] as usize;
-            let (path, ray) = (live.index(k), live.ray(k));
+            let path = live.index(k);
             path_indices[i] = id(path);
             random_numbers.set(i, &paths.samplers[path]);
-            s.wo_world.set(i, -ray.direction);
+            s.wo_world.set(i, -live.direction(k));
             scatter
                 .throughput
                 .set_colour(i, paths.throughput.colour(path));
@@ -131,10 +136,14 @@ impl PathTracer<'_> {
         }
         for (plain, range) in self.material_runs(runs) {
             for i in range {
+                if batch.on_face[i] {
+                    continue;
+                }
                 let k = batch.live_indices[i] as usize;
-                if let Some(hit) = &hits[k] {
+                let ray = live.ray(k);
+                if let Some(hit) = hits.get(&self.scene.geometry.accel, k, &ray) {
                     let time = || paths.times[live.index(k)];
-                    let ray = (live.ray(k), hit, time);
+                    let ray = (&ray, &hit, time);
                     self.load_surface((batch, quadrics), i, ray, !plain.isotropic);
                 }
             }
@@ -166,6 +175,7 @@ impl PathTracer<'_> {
             t.weights[0][i] = hit.u;
             t.weights[1][i] = hit.v;
             t.is_triangle[i] = true;
+            t.count += 1;
             if needs_tangent {
                 tangent = geometry.tangent(hit);
             }
@@ -361,7 +371,7 @@ impl PathTracer<'_> {
             direction: scatter.direction.get(i),
             t_max: f32::INFINITY,
         };
-        next.push(path_index, ray);
+        next.push(path_index, &ray);
         let mut throughput = scatter.throughput.colour(i);
         if let Some(shared) = shared {
             if shared.is_at_y(path) {
@@ -402,7 +412,7 @@ impl PathTracer<'_> {
 struct Onward<'a> {
     paths: &'a mut PathStates,
     live: &'a RayQueue,
-    hits: &'a [Option<Hit>],
+    hits: &'a BlockHits,
     next: &'a mut RayQueue,
     batch: &'a VertexBatch,
     shared: Option<&'a mut Shared>,

@@ -24,8 +24,9 @@ mod pairs;
 
 pub(super) use pairs::PairBuffers;
 
+use super::ray_queue::index;
 use super::vertex_batch::{Floats, Vectors, VertexBatch, WAVEFRONT_SIZE, ZERO};
-use super::wavefront::{Wavefront, index};
+use super::wavefront::Wavefront;
 use super::{PathTracer, estimator};
 use crate::material::{Plain, lobes};
 use crate::offset::SurfacePoint;

@@ -15,8 +15,9 @@ use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{BsdfSample, Frame, Rgb, Vec3};
 
 use super::estimator;
+use crate::accel::BLOCK;
 use crate::film::ScatterCounts;
-use crate::geometry::unit_or;
+use crate::geometry::{triangle_normal, unit_or};
 use crate::light::{LightSample, Parallelogram, ParallelogramSample, Receiver};
 use crate::offset::{SurfacePoint, coupled};
 use crate::options::Strategy;
@@ -25,7 +26,7 @@ use crate::simd::simd_levels;
 use crate::soa;
 
 /// Most vertices at once.
-pub(super) const WAVEFRONT_SIZE: usize = 512;
+pub(super) const WAVEFRONT_SIZE: usize = BLOCK;
 
 /// One value of each vertex.
 pub(super) type Floats = soa::Floats<WAVEFRONT_SIZE>;
@@ -46,6 +47,8 @@ pub(super) struct Triangles {
     pub(super) weights: [Floats; 2],
     /// Whether the vertex is on such a triangle; else its surface is complete.
     pub(super) is_triangle: [bool; WAVEFRONT_SIZE],
+    /// How many are.
+    pub(super) count: usize,
 }
 
 /// Surfaces, with frames that face their viewers.
@@ -120,6 +123,8 @@ pub(super) struct VertexBatch {
     pub(super) path_indices: Indices,
     pub(super) live_indices: Indices,
     pub(super) triangles: Triangles,
+    /// Whether the vertex is on a face of a small scene, which is loaded with others.
+    pub(super) on_face: [bool; WAVEFRONT_SIZE],
     pub(super) surfaces: Surfaces,
     pub(super) light_samples: LightSamples,
     /// The second candidates, where two are sampled.
@@ -154,7 +159,9 @@ impl VertexBatch {
                 has_normals: [false; WAVEFRONT_SIZE],
                 weights: [ZERO; 2],
                 is_triangle: [false; WAVEFRONT_SIZE],
+                count: 0,
             },
+            on_face: [false; WAVEFRONT_SIZE],
             surfaces: Surfaces {
                 position: Vectors::ZERO,
                 error: ZERO,
@@ -299,7 +306,7 @@ pub(super) fn interpolate_triangles(n: usize, t: &Triangles, s: &mut Surfaces) {
         let [na, nb, nc] = [&t.normals[0], &t.normals[1], &t.normals[2]].map(|v| v.get(i));
         let (u, v) = (t.weights[0][i], t.weights[1][i]);
         let w = 1.0 - u - v;
-        let ng = normal([a, b, c]);
+        let ng = triangle_normal([a, b, c]);
         let ns = select(t.has_normals[i], unit_or(na * w + nb * u + nc * v, ng), ng);
         let position = a * w + b * u + c * v;
         let reach = largest(abs(a), largest(abs(b), abs(c)));
@@ -321,12 +328,6 @@ pub(super) fn select(is_new: bool, new: Vec3<f32>, old: Vec3<f32>) -> Vec3<f32> 
         if is_new { new.y } else { old.y },
         if is_new { new.z } else { old.z },
     )
-}
-
-/// The geometric normal of a triangle, towards its outside.
-#[inline(always)]
-pub(super) fn normal([a, b, c]: [Vec3<f32>; 3]) -> Vec3<f32> {
-    unit_or((b - a).cross(c - a), Vec3::Z)
 }
 
 #[inline(always)]

@@ -8,17 +8,20 @@
 use core::ops::Range;
 use core::sync::atomic::{AtomicBool, Ordering};
 
+use specula_bsdf::Rgb;
 use specula_bsdf::math::Stream;
-use specula_bsdf::{Rgb, Vec3};
 
 use super::bound::BoundVertex;
+use super::faces::FaceRun;
 use super::own_lobes::OwnLobes;
 use super::path_states::PathStates;
 use super::quadrics::VerticesOnQuadrics;
+use super::queue::QueuedVertex;
+use super::ray_queue::RayQueue;
 use super::sharing::{PairBuffers, Shared};
-use super::vertex_batch::{self, Floats, VertexBatch, WAVEFRONT_SIZE, ZERO};
+use super::vertex_batch::{Floats, VertexBatch, WAVEFRONT_SIZE, ZERO};
 use super::{Path, PathTracer, Tally, portal_viewpoint};
-use crate::accel::{Hit, Ray};
+use crate::accel::{BlockHits, Hit, Ray};
 use crate::convert::id;
 use crate::film::PixelSample;
 use crate::geometry::NONE;
@@ -27,19 +30,10 @@ use crate::options::Strategy;
 use crate::prepared::PreparedScene;
 use crate::sampler::{Purpose, Sampler};
 
-/// A hit that is shaded in a batch.
-struct QueuedVertex {
-    /// Index among the live paths.
-    at: u32,
-    /// Twice the material, and one more where that is seen from the outside, or its sides are no materials of their
-    /// own.
-    key: u32,
-}
-
 /// Consecutive vertices of a batch with the same key.
 pub(super) struct MaterialRun {
-    from: usize,
-    to: usize,
+    pub(super) from: usize,
+    pub(super) to: usize,
     pub(super) key: u32,
     /// Index of the first of its bound vertices, where its lobes are bound.
     pub(super) first_bound: usize,
@@ -75,15 +69,16 @@ pub(crate) struct Wavefront {
     pub(super) tally: Tally,
     /// The live paths, and the hits of their rays.
     pub(super) live: Box<RayQueue>,
-    pub(super) hits: Vec<Option<Hit>>,
+    pub(super) hits: Box<BlockHits>,
     /// Those that continue from there.
     pub(super) next: Box<RayQueue>,
     /// Indices among the live paths, of rays without a hit.
-    escaped: Vec<u32>,
-    queued: Vec<QueuedVertex>,
+    pub(super) escaped: Vec<u32>,
+    pub(super) queued: Vec<QueuedVertex>,
     /// How many vertices are queued of each key, then where they begin.
-    starts: Vec<u32>,
+    pub(super) starts: Vec<u32>,
     pub(super) runs: Vec<MaterialRun>,
+    pub(super) face_runs: Vec<FaceRun>,
     pub(super) batch: Box<VertexBatch>,
     pub(super) quadrics: Box<VerticesOnQuadrics>,
     /// Of the runs whose lobes are bound, one after the other.
@@ -101,65 +96,6 @@ pub(crate) struct Wavefront {
     pub(super) pairs: Option<Box<PairBuffers>>,
 }
 
-/// Indices of paths or vertices, each with a ray.
-pub(super) struct RayQueue {
-    indices: [u32; WAVEFRONT_SIZE],
-    rays: [Ray; WAVEFRONT_SIZE],
-    len: usize,
-}
-
-impl RayQueue {
-    pub(super) fn new() -> Box<Self> {
-        let nowhere = Ray {
-            origin: Vec3::ZERO,
-            direction: Vec3::Z,
-            t_max: 0.0,
-        };
-        Box::new(Self {
-            indices: [0; WAVEFRONT_SIZE],
-            rays: [nowhere; WAVEFRONT_SIZE],
-            len: 0,
-        })
-    }
-
-    pub(super) fn clear(&mut self) {
-        self.len = 0;
-    }
-
-    #[inline(always)]
-    pub(super) fn push(&mut self, index: u32, ray: Ray) {
-        let at = self.len % WAVEFRONT_SIZE;
-        self.indices[at] = index;
-        self.rays[at] = ray;
-        self.len = at + 1;
-    }
-
-    pub(super) fn len(&self) -> usize {
-        self.len.min(WAVEFRONT_SIZE)
-    }
-
-    /// The index of the path or vertex.
-    #[inline(always)]
-    pub(super) fn index(&self, k: usize) -> usize {
-        index(self.indices[k % WAVEFRONT_SIZE])
-    }
-
-    #[inline(always)]
-    pub(super) fn ray(&self, k: usize) -> &Ray {
-        &self.rays[k % WAVEFRONT_SIZE]
-    }
-
-    pub(super) fn rays(&self) -> &[Ray] {
-        &self.rays[..self.len()]
-    }
-}
-
-/// An index below the wavefront's size, which needs no check of bounds.
-#[inline(always)]
-pub(super) fn index(i: u32) -> usize {
-    i as usize % WAVEFRONT_SIZE
-}
-
 impl Wavefront {
     /// Most paths of a wavefront.
     pub(crate) const SIZE: usize = WAVEFRONT_SIZE;
@@ -172,12 +108,13 @@ impl Wavefront {
             lens_weights: None,
             tally: Tally::default(),
             live: RayQueue::new(),
-            hits: Vec::with_capacity(WAVEFRONT_SIZE),
+            hits: Box::new(BlockHits::new()),
             next: RayQueue::new(),
             escaped: Vec::new(),
             queued: Vec::new(),
             starts: Vec::new(),
             runs: Vec::new(),
+            face_runs: Vec::new(),
             batch: VertexBatch::new(),
             quadrics: Box::new(VerticesOnQuadrics::EMPTY),
             bound: Vec::new(),
@@ -203,13 +140,13 @@ impl Wavefront {
 
     /// The first path, which has just begun.
     pub(super) fn first_path(&self) -> Path {
-        self.paths.load(0, *self.live.ray(0))
+        self.paths.load(0, self.live.ray(0))
     }
 
     /// Whether the vertex before is the one that a path shares with others.
     ///
     /// * `k`: index among the live paths.
-    fn is_at_y(&self, k: usize) -> bool {
+    pub(super) fn is_at_y(&self, k: usize) -> bool {
         let i = self.live.index(k);
         (self.shared.as_ref()).is_some_and(|shared| shared.is_at_y(i))
     }
@@ -283,21 +220,19 @@ impl PathTracer<'_> {
                 paths.times[i] = time;
                 let (origin, direction) = camera.ray_at(time, [x[i], y[i]], [lens_x[i], lens_y[i]]);
                 let t_max = f32::INFINITY;
-                live.push(
-                    id(i),
-                    Ray {
-                        origin,
-                        direction,
-                        t_max,
-                    },
-                );
+                let ray = Ray {
+                    origin,
+                    direction,
+                    t_max,
+                };
+                live.push(id(i), &ray);
             }
             return;
         }
         camera.rays(
             [&x[..n], &y[..n]],
             [&lens_x[..n], &lens_y[..n]],
-            |i, ray| live.push(id(i), ray),
+            |i, ray| live.push(id(i), &ray),
         );
     }
 
@@ -338,7 +273,7 @@ impl PathTracer<'_> {
 
     /// Whether rays pass some surfaces, or media absorb on their way.
     #[inline(always)]
-    fn goes_beyond_hits(&self, depth: u32) -> bool {
+    pub(super) fn goes_beyond_hits(&self, depth: u32) -> bool {
         let scene = self.scene;
         let hides = scene.hide_emitters && depth == 0;
         scene.geometry.has_passable || scene.materials.has_boundaries() || hides
@@ -347,7 +282,13 @@ impl PathTracer<'_> {
     /// Whether a ray may go on beyond its first hit, or is absorbed on its way there.
     ///
     /// * `i`: index of the path.
-    fn is_followed_alone(&self, paths: &PathStates, i: usize, hit: &Hit, depth: u32) -> bool {
+    pub(super) fn is_followed_alone(
+        &self,
+        paths: &PathStates,
+        i: usize,
+        hit: &Hit,
+        depth: u32,
+    ) -> bool {
         let geometry = &self.scene.geometry;
         let group = geometry.group_of(hit);
         let shape = group.shape_of[hit.primitive as usize];
@@ -360,16 +301,16 @@ impl PathTracer<'_> {
     /// Takes one path to its next vertex, by itself.
     ///
     /// * `step`: returns whether the path continues.
-    fn step_scalar(
+    pub(super) fn step_scalar(
         &self,
         wavefront: &mut Wavefront,
         k: usize,
         step: impl FnOnce(&mut Path) -> bool,
     ) {
         let i = wavefront.live.index(k);
-        let mut path = wavefront.paths.load(i, *wavefront.live.ray(k));
+        let mut path = wavefront.paths.load(i, wavefront.live.ray(k));
         if step(&mut path) {
-            wavefront.next.push(id(i), path.ray);
+            wavefront.next.push(id(i), &path.ray);
         }
         wavefront.tally = wavefront.tally.and(wavefront.paths.store(i, &path));
         if let Some(shared) = &mut wavefront.shared {
@@ -384,51 +325,9 @@ impl PathTracer<'_> {
             paths, live, hits, ..
         } = &mut *wavefront;
         let time = |k| paths.times[live.index(k)];
-        geometry.accel.intersect_all_at(live.rays(), time, hits);
+        geometry.accel.intersect_block_at(live.rays(), time, hits);
         wavefront.tally.rays += wavefront.live.len() as u64;
-        wavefront.queued.clear();
-        wavefront.escaped.clear();
-        let some_go_alone = self.goes_beyond_hits(depth);
-        for k in 0..wavefront.live.len() {
-            let Some(hit) = wavefront.hits[k] else {
-                wavefront.escaped.push(id(k));
-                continue;
-            };
-            if some_go_alone {
-                let i = wavefront.live.index(k);
-                if self.is_followed_alone(&wavefront.paths, i, &hit, depth) {
-                    // The step counts its rays.
-                    wavefront.tally.rays -= 1;
-                    self.step_scalar(wavefront, k, |path| self.step(path, depth));
-                    continue;
-                }
-            }
-            let ray = wavefront.live.ray(k);
-            match self.material_key(&wavefront.paths, wavefront.live.index(k), ray, &hit) {
-                Some((key, emits)) => {
-                    if emits {
-                        self.add_emission(wavefront, k, &hit, depth);
-                    }
-                    if depth < self.max_depth {
-                        wavefront.queued.push(QueuedVertex { at: id(k), key });
-                    }
-                }
-                None => {
-                    let time = wavefront.paths.times[wavefront.live.index(k)];
-                    let surface = geometry.surface(ray, &hit, time);
-                    if wavefront.is_at_y(k) {
-                        self.add_emission(wavefront, k, &hit, depth);
-                        self.step_scalar(wavefront, k, |path| {
-                            self.shade_surface(path, surface, depth)
-                        });
-                    } else {
-                        self.step_scalar(wavefront, k, |path| {
-                            self.shade(path, Some(surface), depth)
-                        });
-                    }
-                }
-            }
-        }
+        self.queue_hits(wavefront, depth);
         self.add_background(wavefront, depth);
         if !wavefront.queued.is_empty() {
             self.sort_by_material(wavefront);
@@ -438,11 +337,11 @@ impl PathTracer<'_> {
 
     /// Adds the emission of the surface that the ray of a live path hit.
     #[inline(never)]
-    fn add_emission(&self, wavefront: &mut Wavefront, k: usize, hit: &Hit, depth: u32) {
+    pub(super) fn add_emission(&self, wavefront: &mut Wavefront, k: usize, hit: &Hit, depth: u32) {
         let ray = wavefront.live.ray(k);
         let i = wavefront.live.index(k);
         let time = wavefront.paths.times[i];
-        let surface = self.scene.geometry.surface(ray, hit, time);
+        let surface = self.scene.geometry.surface(&ray, hit, time);
         let previous = wavefront.paths.previous(i);
         if let (Some(shared), Some(previous)) = (&mut wavefront.shared, previous)
             && shared.is_at_y(i)
@@ -474,7 +373,7 @@ impl PathTracer<'_> {
         let lights = &self.scene.lights;
         let directions = escaped
             .iter()
-            .map(|&k| (k as usize, live.ray(k as usize).direction));
+            .map(|&k| (k as usize, live.direction(k as usize)));
         let mut add = |paths: &mut PathStates, k: usize, radiance: Rgb<f32>, pdf: f32| {
             let i = live.index(k);
             if paths.straight[i] && self.scene.hide_emitters {
@@ -500,87 +399,11 @@ impl PathTracer<'_> {
         if lights.has_portals() {
             for k in escaped.iter().map(|&k| k as usize) {
                 let ray = live.ray(k);
-                let from = portal_viewpoint(paths.previous(live.index(k)).as_ref(), ray);
+                let from = portal_viewpoint(paths.previous(live.index(k)).as_ref(), &ray);
                 for (radiance, pdf) in lights.arriving_through_portals(from, ray.direction) {
                     add(paths, k, radiance, pdf);
                 }
             }
-        }
-    }
-
-    /// The material key of a surface, and whether it may emit; `None`: it is shaded singly.
-    ///
-    /// * `i`: index of the path.
-    #[inline(always)]
-    fn material_key(
-        &self,
-        paths: &PathStates,
-        i: usize,
-        ray: &Ray,
-        hit: &Hit,
-    ) -> Option<(u32, bool)> {
-        let rough = paths.rough[i];
-        let geometry = &self.scene.geometry;
-        let group = geometry.group_of(hit);
-        let shape = group.shape_of[hit.primitive as usize];
-        let (material, is_sided) = self.scene.batch_material(shape, rough)?;
-        let outside = !is_sided || self.hits_outside(ray, hit, || paths.times[i]);
-        let emits = group.light_of(hit.primitive) != NONE;
-        Some((2 * material + u32::from(outside), emits))
-    }
-
-    /// Whether a ray hits the outside of a surface.
-    ///
-    /// * `time`: of the path.
-    fn hits_outside(&self, ray: &Ray, hit: &Hit, time: impl FnOnce() -> f32) -> bool {
-        let geometry = &self.scene.geometry;
-        let normal = if let Some(facet) = geometry.facet(hit) {
-            vertex_batch::normal(facet.corners.map(|&c| Vec3::from(c)))
-        } else if let Some(at) = geometry.quadric(hit) {
-            let near = ray.origin + ray.direction * hit.t;
-            return (geometry.placed_quadric(at)).is_met_outside(near, ray.direction);
-        } else {
-            geometry.surface(ray, hit, time()).ng
-        };
-        normal.dot(ray.direction) < 0.0
-    }
-
-    /// Sorts the queued vertices by key into material runs.
-    ///
-    /// Even a single vertex is a run: its values must not depend on other vertices.
-    fn sort_by_material(&self, wavefront: &mut Wavefront) {
-        let Wavefront {
-            queued,
-            starts,
-            runs,
-            batch,
-            ..
-        } = wavefront;
-        starts.clear();
-        starts.resize(2 * self.scene.materials.count(), 0);
-        for vertex in queued.iter() {
-            starts[vertex.key as usize] += 1;
-        }
-        runs.clear();
-        let mut at = 0;
-        for (key, count) in (0..).zip(starts.iter_mut()) {
-            let to = at + *count as usize;
-            if *count > 0 {
-                runs.push(MaterialRun {
-                    from: at,
-                    to,
-                    key,
-                    first_bound: 0,
-                });
-            }
-            *count = id(at);
-            at = to;
-        }
-        batch.count = at;
-        for vertex in queued.iter() {
-            let place = &mut starts[vertex.key as usize];
-            batch.live_indices[index(*place)] = vertex.at;
-            *place += 1;
         }
     }
 }

@@ -416,9 +416,9 @@ fn incoherent_rays_in_a_large_tree_gain_by_interleaving() {
     for ray in &mut narrow {
         ray.direction = ray.direction * 0.1 + Vec3::Z * 3.0;
     }
-    assert!(interleaved::gains(&large.scene, &parting));
-    assert!(!interleaved::gains(&large.scene, &narrow));
-    assert!(!interleaved::gains(&small.scene, &parting));
+    assert!(interleaved::gains(&large.scene, &parting[..]));
+    assert!(!interleaved::gains(&large.scene, &narrow[..]));
+    assert!(!interleaved::gains(&small.scene, &parting[..]));
     assert!(compare(&large, &parting) > 100);
     assert_eq!(compare(&large.portable(), &narrow), 256);
 }

@@ -10,7 +10,7 @@ mod patches;
 mod quadric_parts;
 mod quadrics;
 mod reference;
-
+mod solids;
 mod watertight;
 
 use specula_bsdf::Vec3;

@@ -3,6 +3,7 @@
 use glam::{DMat4, DQuat, DVec3};
 use specula_scene::scene::Motion;
 
+use super::super::{BlockHits, RayBlock};
 use super::*;
 use crate::movement::Movement;
 
@@ -71,14 +72,15 @@ fn rays_hit_what_moves_where_it_is_at_their_time() {
                 ray(origin, random.vector() * 3.0 - origin)
             })
             .collect();
-        let (mut found, mut occluded) = (Vec::new(), Vec::new());
-        accel.intersect_all_at(&rays, |_| time, &mut found);
-        accel.occluded_all_at(&rays, |_| time, &mut occluded);
+        let (mut found, mut occluded) = (BlockHits::new(), Vec::new());
+        let block = RayBlock::of(&rays);
+        accel.intersect_block_at((&block, rays.len()), |_| time, &mut found);
+        accel.occluded_block_at((&block, rays.len()), |_| time, &mut occluded);
         for (i, ray) in rays.iter().enumerate() {
             let expected = exact(reference.intersect(ray));
             assert_eq!(exact(accel.intersect_at(ray, time)), expected, "{ray:?}");
             assert_eq!(exact(portable.intersect_at(ray, time)), expected);
-            assert_eq!(exact(found[i]), expected);
+            assert_eq!(exact(found.get(&accel, i, ray)), expected);
             assert_eq!(portable.occluded_at(ray, time), expected.is_some());
             assert_eq!(occluded[i], expected.is_some());
             // Times of rays without one: where the shutter opens.

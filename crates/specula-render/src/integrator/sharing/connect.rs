@@ -9,8 +9,8 @@ use macro_rules_attribute::apply;
 use specula_bsdf::Vec3;
 
 use super::super::estimator;
+use super::super::ray_queue::index;
 use super::super::vertex_batch::{Floats, Vectors, WAVEFRONT_SIZE};
-use super::super::wavefront::index;
 use super::Vertices;
 use super::pairs::{LobeValues, Pairs};
 use crate::simd::simd_levels;

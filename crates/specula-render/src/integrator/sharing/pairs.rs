@@ -3,8 +3,9 @@
 use specula_bsdf::Rgb;
 use specula_bsdf::math::rgb;
 
+use super::super::ray_queue::{RayQueue, index};
 use super::super::vertex_batch::{Floats, Vectors, WAVEFRONT_SIZE, ZERO};
-use super::super::wavefront::{RayQueue, Wavefront, index};
+use super::super::wavefront::Wavefront;
 use super::super::{PathTracer, estimator};
 use super::{Shared, connect};
 use crate::accel::Ray;
@@ -370,13 +371,13 @@ impl PathTracer<'_> {
                     direction: pairs.direction.get(k),
                     t_max: estimator::SHADOW_RAY_END,
                 };
-                rays.push(id(k), ray);
+                rays.push(id(k), &ray);
             }
         }
         self.scene
             .geometry
             .accel
-            .occluded_all(rays.rays(), occluded);
+            .occluded_block(rays.rays(), occluded);
         for (r, _) in occluded
             .iter()
             .enumerate()
