@@ -6,6 +6,7 @@
 )]
 
 use macro_rules_attribute::apply;
+use specula_bsdf::Vec3;
 
 use super::PathTracer;
 use super::vertex_batch::{Surfaces, WAVEFRONT_SIZE};
@@ -36,8 +37,13 @@ impl PathTracer<'_> {
         } = wavefront;
         batch.on_face[..batch.count.min(WAVEFRONT_SIZE)].fill(false);
         for run in face_runs.iter() {
-            let Some(face) = &places.of_side(run.side).face else {
+            let place = places.of_side(run.side);
+            let Some(face) = &place.face else {
                 continue;
+            };
+            let tangent = match place.key(run.side % 2 == 1) {
+                Some(key) if self.needs_tangent(key) => face.tangent,
+                _ => Vec3::ZERO,
             };
             let (from, to) = (run.from, run.to.min(WAVEFRONT_SIZE));
             for i in from..to {
@@ -48,14 +54,25 @@ impl PathTracer<'_> {
             }
             batch.on_face[from..to].fill(true);
             batch.triangles.is_triangle[from..to].fill(false);
-            locate_on_face(face, [from, to], &mut batch.surfaces);
+            locate_on_face(face, tangent, [from, to], &mut batch.surfaces);
+        }
+    }
+
+    /// Whether a material's lobes depend on the tangent.
+    ///
+    /// * `key`: as of `QueuedVertex`.
+    fn needs_tangent(&self, key: u32) -> bool {
+        let materials = &self.scene.materials;
+        match materials.plain(key / 2) {
+            Some(sides) => !sides[(key % 2) as usize].isotropic,
+            None => !materials.takes_any_tangent(key / 2),
         }
     }
 }
 
 /// Surfaces of vertices whose positions are points near a face.
 #[apply(simd_levels)]
-fn locate_on_face(face: &Face, [from, to]: [usize; 2], s: &mut Surfaces) {
+fn locate_on_face(face: &Face, tangent: Vec3<f32>, [from, to]: [usize; 2], s: &mut Surfaces) {
     let (normal, point) = (face.normal, face.point);
     for i in from..to.min(WAVEFRONT_SIZE) {
         let near = s.position.get(i);
@@ -64,7 +81,7 @@ fn locate_on_face(face: &Face, [from, to]: [usize; 2], s: &mut Surfaces) {
         s.error[i] = face.error;
         s.ng.set(i, normal);
         s.ns.set(i, face.shading_normal);
-        s.tangent.set(i, face.tangent);
+        s.tangent.set(i, tangent);
     }
 }
 
@@ -76,7 +93,6 @@ mod tests {
     use crate::options::RenderOptions;
     use crate::prepared::PreparedScene;
     use glam::{DMat4, DVec3};
-    use specula_bsdf::Vec3;
     use specula_bsdf::math::vec3;
     use specula_scene::scene::{Geometry as SceneGeometry, Mesh, MeshId, Shape};
 
@@ -161,7 +177,7 @@ mod tests {
             let near = ray.origin + ray.direction * hits.t(k);
             let s = &mut batch.surfaces;
             s.position.set(k, near);
-            locate_on_face(face, [k, k + 1], s);
+            locate_on_face(face, face.tangent, [k, k + 1], s);
             let hit = hits.get(&geometry.accel, k, &ray).expect("it has a place");
             let surface = geometry.surface(&ray, &hit, 0.0);
             let off = (s.position.get(k) - surface.position).length();
