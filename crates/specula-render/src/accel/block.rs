@@ -114,10 +114,12 @@ impl BlockHits {
     }
 
     /// The hit of a ray.
+    ///
+    /// * `ray`: asked for in small scenes.
     #[inline(always)]
-    pub(crate) fn get(&self, accel: &Accel, k: usize, ray: &Ray) -> Option<Hit> {
+    pub(crate) fn get(&self, accel: &Accel, k: usize, ray: impl FnOnce() -> Ray) -> Option<Hit> {
         match &accel.small {
-            Some(small) => small.hit(&self.small, k, ray),
+            Some(small) => small.hit(&self.small, k, &ray()),
             None => self.hits[k],
         }
     }

@@ -176,11 +176,10 @@ impl PathTracer<'_> {
                     continue;
                 }
                 let k = batch.live_indices[i] as usize;
-                let ray = live.ray(k);
-                match hits.get(&self.scene.geometry.accel, k, &ray) {
+                match hits.get(&self.scene.geometry.accel, k, || live.ray(k)) {
                     Some(hit) if !is_bent => {
                         let time = || paths.times[live.index(k)];
-                        let ray = (&ray, &hit, time);
+                        let ray = (|| live.ray(k), &hit, time);
                         self.load_surface((batch, quadrics), i, ray, needs_tangent);
                     }
                     // It is set when its lobe is bound.
@@ -446,7 +445,7 @@ fn arrival<'a>(
     let ray = live.ray(k);
     Some(Arrival {
         ray,
-        hit: hits.get(accel, k, &ray)?,
+        hit: hits.get(accel, k, || ray)?,
         cone: paths.cones[path],
         time: paths.times[path],
         sampler: &paths.samplers[path],

@@ -170,7 +170,7 @@ mod tests {
         for k in 0..usize::from(n) {
             let ray = block.get(k);
             let Some((_, place)) = places.at(&hits, k) else {
-                assert_eq!(hits.get(&geometry.accel, k, &ray), None);
+                assert_eq!(hits.get(&geometry.accel, k, || ray), None);
                 continue;
             };
             let face = place.face.as_ref().expect("there is nothing else");
@@ -178,7 +178,9 @@ mod tests {
             let s = &mut batch.surfaces;
             s.position.set(k, near);
             locate_on_face(face, face.tangent, [k, k + 1], s);
-            let hit = hits.get(&geometry.accel, k, &ray).expect("it has a place");
+            let hit = hits
+                .get(&geometry.accel, k, || ray)
+                .expect("it has a place");
             let surface = geometry.surface(&ray, &hit, 0.0);
             let off = (s.position.get(k) - surface.position).length();
             assert!(off < 2.0 * face.error, "{off} {}", face.error);

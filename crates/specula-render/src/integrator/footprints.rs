@@ -100,7 +100,7 @@ impl PathTracer<'_> {
     ) {
         let k = batch.live_indices[i] as usize;
         let (ray, path) = (live.ray(k), index(batch.path_indices[i]));
-        let Some(hit) = hits.get(&self.scene.geometry.accel, k, &ray) else {
+        let Some(hit) = hits.get(&self.scene.geometry.accel, k, || ray) else {
             return;
         };
         let scatter = &batch.scatter_samples;

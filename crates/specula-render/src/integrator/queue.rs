@@ -6,7 +6,6 @@ use core::ops::Range;
 
 use super::PathTracer;
 use super::faces::FaceRun;
-use super::path_states::PathStates;
 use super::ray_queue::index;
 use super::wavefront::{MaterialRun, Wavefront};
 use crate::accel::{Hit, Ray};
@@ -34,9 +33,8 @@ impl PathTracer<'_> {
         }
         let accel = &self.scene.geometry.accel;
         for k in 0..wavefront.live.len() {
-            let ray = wavefront.live.ray(k);
-            let hit = wavefront.hits.get(accel, k, &ray);
-            if let Some(key) = self.take_hit(wavefront, k, (&ray, hit), depth) {
+            let hit = wavefront.hits.get(accel, k, || wavefront.live.ray(k));
+            if let Some(key) = self.take_hit(wavefront, k, hit, depth) {
                 wavefront.queued.push(QueuedVertex { at: id(k), key });
             }
         }
@@ -62,9 +60,8 @@ impl PathTracer<'_> {
                 Some(outside) if depth < self.max_depth => outside,
                 Some(_) => continue,
                 None => {
-                    let ray = wavefront.live.ray(k);
-                    let hit = wavefront.hits.get(accel, k, &ray);
-                    let Some(key) = self.take_hit(wavefront, k, (&ray, hit), depth) else {
+                    let hit = wavefront.hits.get(accel, k, || wavefront.live.ray(k));
+                    let Some(key) = self.take_hit(wavefront, k, hit, depth) else {
                         continue;
                     };
                     key % 2 == 1
@@ -85,7 +82,7 @@ impl PathTracer<'_> {
         &self,
         wavefront: &mut Wavefront,
         k: usize,
-        (ray, hit): (&Ray, Option<Hit>),
+        hit: Option<Hit>,
         depth: u32,
     ) -> Option<u32> {
         let Some(hit) = hit else {
@@ -100,14 +97,15 @@ impl PathTracer<'_> {
             self.step_scalar(wavefront, k, |path| self.step(path, depth));
             return None;
         }
-        if let Some((key, emits)) = self.material_key(&wavefront.paths, i, ray, &hit) {
+        if let Some((key, emits)) = self.material_key(wavefront, k, &hit) {
             if emits {
                 self.add_emission(wavefront, k, &hit, depth);
             }
             return (depth < self.max_depth).then_some(key);
         }
         let time = wavefront.paths.times[i];
-        let surface = self.scene.geometry.surface(ray, &hit, time);
+        let ray = wavefront.live.ray(k);
+        let surface = self.scene.geometry.surface(&ray, &hit, time);
         if wavefront.is_at_y(k) {
             self.add_emission(wavefront, k, &hit, depth);
             self.step_scalar(wavefront, k, |path| {
@@ -121,21 +119,18 @@ impl PathTracer<'_> {
 
     /// The material key of a surface, and whether it may emit; `None`: it is shaded singly.
     ///
-    /// * `i`: index of the path.
+    /// * `k`: index among the live paths.
     #[inline(always)]
-    fn material_key(
-        &self,
-        paths: &PathStates,
-        i: usize,
-        ray: &Ray,
-        hit: &Hit,
-    ) -> Option<(u32, bool)> {
+    fn material_key(&self, wavefront: &Wavefront, k: usize, hit: &Hit) -> Option<(u32, bool)> {
+        let paths = &wavefront.paths;
+        let i = wavefront.live.index(k);
         let rough = paths.rough[i];
         let geometry = &self.scene.geometry;
         let group = geometry.group_of(hit);
         let shape = group.shape_of[hit.primitive as usize];
         let (material, is_sided) = self.scene.batch_material(shape, rough)?;
-        let outside = !is_sided || self.hits_outside(ray, hit, || paths.times[i]);
+        let outside =
+            !is_sided || self.hits_outside(&wavefront.live.ray(k), hit, || paths.times[i]);
         let emits = group.light_of(hit.primitive) != NONE;
         Some((2 * material + u32::from(outside), emits))
     }

@@ -140,10 +140,9 @@ impl PathTracer<'_> {
                     continue;
                 }
                 let k = batch.live_indices[i] as usize;
-                let ray = live.ray(k);
-                if let Some(hit) = hits.get(&self.scene.geometry.accel, k, &ray) {
+                if let Some(hit) = hits.get(&self.scene.geometry.accel, k, || live.ray(k)) {
                     let time = || paths.times[live.index(k)];
-                    let ray = (&ray, &hit, time);
+                    let ray = (|| live.ray(k), &hit, time);
                     self.load_surface((batch, quadrics), i, ray, !plain.isotropic);
                 }
             }
@@ -156,7 +155,7 @@ impl PathTracer<'_> {
         &self,
         (batch, quadrics): (&mut VertexBatch, &mut VerticesOnQuadrics),
         i: usize,
-        (ray, hit, time): (&Ray, &Hit, impl FnOnce() -> f32),
+        (ray, hit, time): (impl FnOnce() -> Ray, &Hit, impl FnOnce() -> f32),
         needs_tangent: bool,
     ) {
         let geometry = &self.scene.geometry;
@@ -181,6 +180,7 @@ impl PathTracer<'_> {
             }
         } else if let Some(quadric) = geometry.quadric(hit) {
             t.is_triangle[i] = false;
+            let ray = ray();
             let near = ray.origin + ray.direction * hit.t;
             s.position.set(i, near);
             if !quadrics.push(i, quadric, needs_tangent) {
@@ -193,7 +193,7 @@ impl PathTracer<'_> {
                 };
             }
         } else {
-            let surface = geometry.surface(ray, hit, time());
+            let surface = geometry.surface(&ray(), hit, time());
             t.is_triangle[i] = false;
             s.position.set(i, surface.position);
             s.error[i] = surface.error.x;

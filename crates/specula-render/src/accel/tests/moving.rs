@@ -80,7 +80,7 @@ fn rays_hit_what_moves_where_it_is_at_their_time() {
             let expected = exact(reference.intersect(ray));
             assert_eq!(exact(accel.intersect_at(ray, time)), expected, "{ray:?}");
             assert_eq!(exact(portable.intersect_at(ray, time)), expected);
-            assert_eq!(exact(found.get(&accel, i, ray)), expected);
+            assert_eq!(exact(found.get(&accel, i, || *ray)), expected);
             assert_eq!(portable.occluded_at(ray, time), expected.is_some());
             assert_eq!(occluded[i], expected.is_some());
             // Times of rays without one: where the shutter opens.
