@@ -365,7 +365,7 @@ fn balls_are_hit_where_spheres_are() {
         let radius = crate::convert::narrow(radius);
         for _ in 0..20_000 {
             let mut ray = ray(random.vector() * (4.0 * radius), random.direction());
-            ray.direction = ray.direction * (radius * 10.0_f32.powf(4.0 * random.signed()));
+            ray.direction *= radius * 10.0_f32.powf(4.0 * random.signed());
             let expected = prepared.t(&ray);
             let hit = accel.intersect(&ray);
             assert_eq!(accel.occluded(&ray), hit.is_some());
