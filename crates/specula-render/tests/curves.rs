@@ -61,16 +61,6 @@ fn place(scene: &mut Scene, curves: CurveMesh, to_world: DMat4, m: MaterialId) {
     scene.shapes.push(shape(geometry, to_world, m));
 }
 
-fn hair(sigma_a: [f32; 3]) -> MaterialKind {
-    MaterialKind::Hair(HairMaterial {
-        pigment: HairPigment::Absorption(ColourParam::Value(Rgb::from(sigma_a))),
-        eta: FloatParam::Value(1.55),
-        beta_m: FloatParam::Value(0.3),
-        beta_n: FloatParam::Value(0.3),
-        alpha_deg: FloatParam::Value(2.0),
-    })
-}
-
 /// White hair and other white fibres vanish in a uniform sky, at every scale, and distorted.
 #[test]
 fn white_curves_vanish_in_a_uniform_sky() {
@@ -186,18 +176,7 @@ fn cylinders_and_hair_are_lit_from_where_the_light_is() {
 #[test]
 fn strategies_agree_on_hair_of_curves() {
     for kind in KINDS {
-        let mut scene = empty(look([0.0, 0.0, 5.0], [0.0; 3], 40.0), 8);
-        let m = material(&mut scene, hair([0.1, 0.3, 0.9]));
-        place(&mut scene, lock(kind), DMat4::IDENTITY, m);
-        let black = material(&mut scene, diffuse(0.0));
-        let lamp = sphere(1.0, [1.0, 1.0, -4.0], black);
-        scene.shapes.push(emitting(lamp, 8.0));
-        scene.lights.push(constant_sky(0.2));
-        let results: Vec<_> = [Strategy::Mis, Strategy::BsdfOnly, Strategy::LightsOnly]
-            .into_iter()
-            .map(|strategy| mean(&render(&scene, 512, 6, strategy)))
-            .collect();
-        assert_agree("lock", &results, 0, 0.02);
+        assert_strategies_agree_on_hair(|scene, m| place(scene, lock(kind), DMat4::IDENTITY, m));
     }
 }
 

@@ -6,22 +6,11 @@ use core::f64::consts::TAU;
 
 use common::*;
 use glam::{DMat4, DVec3};
-use specula_bsdf::Rgb;
 use specula_bsdf::fresnel::dielectric;
 use specula_render::{PreparedScene, RenderOptions, Strategy};
 use specula_scene::scene::*;
 
 const SIDES: u32 = 12;
-
-fn hair(sigma_a: [f32; 3]) -> MaterialKind {
-    MaterialKind::Hair(HairMaterial {
-        pigment: HairPigment::Absorption(ColourParam::Value(Rgb::from(sigma_a))),
-        eta: FloatParam::Value(1.55),
-        beta_m: FloatParam::Value(0.3),
-        beta_n: FloatParam::Value(0.3),
-        alpha_deg: FloatParam::Value(2.0),
-    })
-}
 
 /// A fibre of radius 1 about x, from -1 to 1: a tube of 12 sides.
 fn tube() -> Mesh {
@@ -145,19 +134,7 @@ fn light_takes_a_fibre_once() {
 /// A dyed lock between a lamp behind it and a dim sky: light comes through fibres, and each strategy knows how much.
 #[test]
 fn strategies_agree_on_hair() {
-    let mut scene = empty(look([0.0, 0.0, 5.0], [0.0; 3], 40.0), 8);
-    let m = material(&mut scene, hair([0.1, 0.3, 0.9]));
-    lock(&mut scene, m);
-    let black = material(&mut scene, diffuse(0.0));
-    scene
-        .shapes
-        .push(emitting(sphere(1.0, [1.0, 1.0, -4.0], black), 8.0));
-    scene.lights.push(constant_sky(0.2));
-    let results: Vec<_> = [Strategy::Mis, Strategy::BsdfOnly, Strategy::LightsOnly]
-        .into_iter()
-        .map(|strategy| mean(&render(&scene, 512, 6, strategy)))
-        .collect();
-    assert_agree("lock", &results, 0, 0.02);
+    assert_strategies_agree_on_hair(lock);
 }
 
 #[test]

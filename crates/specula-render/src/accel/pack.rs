@@ -99,6 +99,21 @@ pub(super) type Sheared = [[Column; 3]; CORNERS];
 /// No primitive.
 pub(super) const NOTHING: u32 = u32::MAX;
 
+/// Takes a hit of a ray, if it is closer than the closest so far. Where any counts it ends the ray: nothing lies before
+/// its new end.
+#[inline(always)]
+fn take<const ANY: bool>(
+    (closest, places): (&mut Column, &mut [u32; PACK]),
+    lane: usize,
+    is_closer: bool,
+    t: f32,
+    place: u32,
+) {
+    let end = if ANY { ENDED } else { t };
+    closest[lane] = if is_closer { end } else { closest[lane] };
+    places[lane] = if is_closer { place } else { places[lane] };
+}
+
 impl Pack {
     /// Of no ray.
     const NONE: Self = Self {
@@ -272,14 +287,13 @@ impl Pack {
             let weights = triangle::edge_functions(a, b, c);
             let (t, u, v) = triangle::distance(weights, [a[2], b[2], c[2]], dz[lane]);
             let closer = triangle::same_sign(weights) & (t > 0.0) & (t < self.t[lane]);
-            self.t[lane] = if closer { t } else { self.t[lane] };
             self.u[lane] = if closer { u } else { self.u[lane] };
             self.v[lane] = if closer { v } else { self.v[lane] };
-            self.place[lane] = if closer { place } else { self.place[lane] };
+            take::<false>((&mut self.t, &mut self.place), lane, closer, t, place);
         }
     }
 
-    /// Ends the rays that a triangle occludes; see [`Self::end`].
+    /// Ends the rays that a triangle occludes; see [`take`].
     ///
     /// Most triangles that the lines of shadow rays pass through lie behind or beyond them, which is told before
     /// anything is divided.
@@ -306,15 +320,8 @@ impl Pack {
             let weights = triangle::edge_functions(a, b, c);
             let (t, _, _) = triangle::distance(weights, [a[2], b[2], c[2]], self.shear[2][lane]);
             let occluded = triangle::same_sign(weights) & (t > 0.0) & (t < self.t[lane]);
-            self.end(lane, occluded);
+            take::<true>((&mut self.t, &mut self.place), lane, occluded, t, 0);
         }
-    }
-
-    /// Ends a ray if something occludes it: nothing lies before its new end.
-    #[inline(always)]
-    fn end(&mut self, lane: usize, occluded: bool) {
-        self.t[lane] = if occluded { ENDED } else { self.t[lane] };
-        self.place[lane] = if occluded { 0 } else { self.place[lane] };
     }
 
     /// Updates the hits by a rectangle.
@@ -338,9 +345,7 @@ impl Pack {
                 [slack[0][lane], slack[1][lane]],
             );
             let closer = inside & (t > 0.0) & (t < self.t[lane]);
-            let end = if ANY { ENDED } else { t };
-            self.t[lane] = if closer { end } else { self.t[lane] };
-            self.place[lane] = if closer { place } else { self.place[lane] };
+            take::<ANY>((&mut self.t, &mut self.place), lane, closer, t, place);
         }
     }
 
@@ -352,10 +357,13 @@ impl Pack {
         for lane in 0..PACK {
             let hit = solid.hit(at(&self.origin, lane), at(&self.direction, lane));
             let closer = (hit.t > 0.0) & (hit.t < self.t[lane]);
-            let end = if ANY { ENDED } else { hit.t };
-            self.t[lane] = if closer { end } else { self.t[lane] };
-            let face = place + hit.face;
-            self.place[lane] = if closer { face } else { self.place[lane] };
+            take::<ANY>(
+                (&mut self.t, &mut self.place),
+                lane,
+                closer,
+                hit.t,
+                place + hit.face,
+            );
         }
     }
 
@@ -367,9 +375,7 @@ impl Pack {
             let (o, d) = (at(&self.origin, lane), at(&unit.direction, lane));
             let t = ball.t(o, d, [square[lane], over_square[lane]]) * unit.scale[lane];
             let closer = (t > 0.0) & (t < self.t[lane]);
-            let end = if ANY { ENDED } else { t };
-            self.t[lane] = if closer { end } else { self.t[lane] };
-            self.place[lane] = if closer { place } else { self.place[lane] };
+            take::<ANY>((&mut self.t, &mut self.place), lane, closer, t, place);
         }
     }
 
@@ -421,12 +427,7 @@ impl Pack {
         }
         for lane in 0..PACK {
             let closer = (is_hit[lane] != 0) & (t[lane] > 0.0) & (t[lane] < self.t[lane]);
-            if ANY {
-                self.end(lane, closer);
-                continue;
-            }
-            self.t[lane] = if closer { t[lane] } else { self.t[lane] };
-            self.place[lane] = if closer { place } else { self.place[lane] };
+            take::<ANY>((&mut self.t, &mut self.place), lane, closer, t[lane], place);
         }
     }
 
@@ -446,13 +447,9 @@ impl Pack {
             };
             let hit = patch.hit(&ray, axes);
             let closer = (hit.t > 0.0) & (hit.t < self.t[lane]);
-            if ANY {
-                self.end(lane, closer);
-            } else if closer {
-                self.t[lane] = hit.t;
-                self.u[lane] = hit.u;
-                self.v[lane] = hit.v;
-                self.place[lane] = place;
+            if closer {
+                (self.u[lane], self.v[lane]) = (hit.u, hit.v);
+                take::<ANY>((&mut self.t, &mut self.place), lane, closer, hit.t, place);
             }
         }
     }

@@ -71,16 +71,14 @@ impl Parallelepiped {
     /// The box that the first of some faces belongs to.
     fn with_first(faces: &[Parallelogram], some: &[usize]) -> Option<(Self, [usize; 6])> {
         let [p0, p1, p2, p3] = faces[*some.first()?].corners;
-        let others = |corner: [f32; 3], but: [[f32; 3]; 2]| {
-            // The neighbours of a corner in another face.
-            move |face: &[[f32; 3]; 4]| {
-                let k = face.iter().position(|p| *p == corner)?;
-                let neighbours = [face[k ^ 1], face[k ^ 2]];
-                let third = neighbours.into_iter().find(|p| !but.contains(p))?;
-                (neighbours.iter().any(|p| but.contains(p)) && !face.contains(&p3)).then_some(third)
-            }
+        // The third neighbour of the first corner, by another face that has one of the two.
+        let third = |face: &[[f32; 3]; 4]| {
+            let k = face.iter().position(|p| *p == p0)?;
+            let neighbours = [face[k ^ 1], face[k ^ 2]];
+            let is_known = |p: &[f32; 3]| *p == p1 || *p == p2;
+            let third = neighbours.into_iter().find(|p| !is_known(p))?;
+            (neighbours.iter().any(is_known) && !face.contains(&p3)).then_some(third)
         };
-        let third = others(p0, [p1, p2]);
         let p4 = some[1..].iter().find_map(|&k| third(&faces[k].corners))?;
         let opposite = |of: [f32; 3], near: [f32; 3], beside: [f32; 3]| {
             some.iter().find_map(|&k| {

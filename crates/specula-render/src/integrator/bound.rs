@@ -170,7 +170,7 @@ impl PathTracer<'_> {
         let materials = &self.scene.materials;
         for run in self.bound_runs(runs) {
             let is_bent = materials.is_bent(run.key / 2);
-            let needs_tangent = !materials.takes_any_tangent(run.key / 2);
+            let needs_tangent = self.needs_tangent(run.key);
             for i in run.range() {
                 if batch.on_face[i] {
                     continue;

@@ -61,7 +61,7 @@ impl PathTracer<'_> {
     /// Whether a material's lobes depend on the tangent.
     ///
     /// * `key`: as of `QueuedVertex`.
-    fn needs_tangent(&self, key: u32) -> bool {
+    pub(super) fn needs_tangent(&self, key: u32) -> bool {
         let materials = &self.scene.materials;
         match materials.plain(key / 2) {
             Some(sides) => !sides[(key % 2) as usize].isotropic,

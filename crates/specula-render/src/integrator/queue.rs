@@ -32,9 +32,10 @@ impl PathTracer<'_> {
             return self.queue_by_place(wavefront, places, depth);
         }
         let accel = &self.scene.geometry.accel;
+        let some_go_alone = self.goes_beyond_hits(depth);
         for k in 0..wavefront.live.len() {
             let hit = wavefront.hits.get(accel, k, || wavefront.live.ray(k));
-            if let Some(key) = self.take_hit(wavefront, k, hit, depth) {
+            if let Some(key) = self.take_hit(wavefront, k, hit, (depth, some_go_alone)) {
                 wavefront.queued.push(QueuedVertex { at: id(k), key });
             }
         }
@@ -61,7 +62,8 @@ impl PathTracer<'_> {
                 Some(_) => continue,
                 None => {
                     let hit = wavefront.hits.get(accel, k, || wavefront.live.ray(k));
-                    let Some(key) = self.take_hit(wavefront, k, hit, depth) else {
+                    let at = (depth, some_go_alone);
+                    let Some(key) = self.take_hit(wavefront, k, hit, at) else {
                         continue;
                     };
                     key % 2 == 1
@@ -77,21 +79,21 @@ impl PathTracer<'_> {
     /// Adds the emission at a hit; returns the material key of a vertex that is shaded in a batch, and shades others.
     ///
     /// * `k`: index among the live paths.
+    /// * `some_go_alone`: [`Self::goes_beyond_hits`].
     #[inline(always)]
     fn take_hit(
         &self,
         wavefront: &mut Wavefront,
         k: usize,
         hit: Option<Hit>,
-        depth: u32,
+        (depth, some_go_alone): (u32, bool),
     ) -> Option<u32> {
         let Some(hit) = hit else {
             wavefront.escaped.push(id(k));
             return None;
         };
         let i = wavefront.live.index(k);
-        if self.goes_beyond_hits(depth) && self.is_followed_alone(&wavefront.paths, i, &hit, depth)
-        {
+        if some_go_alone && self.is_followed_alone(&wavefront.paths, i, &hit, depth) {
             // The step counts its rays.
             wavefront.tally.rays -= 1;
             self.step_scalar(wavefront, k, |path| self.step(path, depth));

@@ -243,3 +243,35 @@ pub(crate) fn absorbing(scene: &mut Scene, kind: MaterialKind, absorption: f32) 
     scene.materials[id.0].absorption = Rgb::splat(absorption);
     id
 }
+
+/// Hair of moderate roughness.
+///
+/// * `sigma_a`: absorption.
+pub(crate) fn hair(sigma_a: [f32; 3]) -> MaterialKind {
+    MaterialKind::Hair(HairMaterial {
+        pigment: HairPigment::Absorption(ColourParam::Value(Rgb::from(sigma_a))),
+        eta: FloatParam::Value(1.55),
+        beta_m: FloatParam::Value(0.3),
+        beta_n: FloatParam::Value(0.3),
+        alpha_deg: FloatParam::Value(2.0),
+    })
+}
+
+/// Renders dyed hair between a lamp behind it and a dim sky by each strategy: light comes through fibres, and each knows
+/// how much.
+///
+/// * `place`: adds the hair.
+pub(crate) fn assert_strategies_agree_on_hair(place: impl FnOnce(&mut Scene, MaterialId)) {
+    let mut scene = empty(look([0.0, 0.0, 5.0], [0.0; 3], 40.0), 8);
+    let m = material(&mut scene, hair([0.1, 0.3, 0.9]));
+    place(&mut scene, m);
+    let black = material(&mut scene, diffuse(0.0));
+    let lamp = sphere(1.0, [1.0, 1.0, -4.0], black);
+    scene.shapes.push(emitting(lamp, 8.0));
+    scene.lights.push(constant_sky(0.2));
+    let results: Vec<_> = [Strategy::Mis, Strategy::BsdfOnly, Strategy::LightsOnly]
+        .into_iter()
+        .map(|strategy| mean(&render(&scene, 512, 6, strategy)))
+        .collect();
+    assert_agree("lock", &results, 0, 0.02);
+}

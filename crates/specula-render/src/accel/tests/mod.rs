@@ -204,6 +204,24 @@ impl Mesh {
     }
 }
 
+/// The faces of a box whose corners are told by the bits of their indices.
+const BOX_FACES: [[u32; 4]; 6] = [
+    [0, 2, 3, 1],
+    [4, 5, 7, 6],
+    [0, 1, 5, 4],
+    [2, 6, 7, 3],
+    [0, 4, 6, 2],
+    [1, 3, 7, 5],
+];
+
+impl Accel {
+    /// Without what small scenes are tested by.
+    fn in_tree(mut self) -> Self {
+        self.small = None;
+        self
+    }
+}
+
 fn ray(origin: Vec3<f32>, direction: Vec3<f32>) -> Ray {
     Ray {
         origin,

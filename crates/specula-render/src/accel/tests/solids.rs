@@ -8,16 +8,6 @@ use super::super::quadric::PreparedQuadric;
 use super::*;
 use crate::offset::{SurfacePoint, coupled};
 
-/// A corner of a box by the bits of its index, and its faces.
-const FACES: [[u32; 4]; 6] = [
-    [0, 2, 6, 4],
-    [1, 5, 7, 3],
-    [0, 4, 5, 1],
-    [2, 3, 7, 6],
-    [0, 1, 3, 2],
-    [4, 6, 7, 5],
-];
-
 /// Adds the parallelogram of four corners in a row, cut along either diagonal.
 fn push_face(mesh: &mut Mesh, [a, b, c, d]: [Vec3<f32>; 4], random: &mut Random) {
     let halves = match random.below(3) {
@@ -43,7 +33,7 @@ fn push_box(
             p + edges[k as usize] * side
         })
     });
-    for face in FACES {
+    for face in BOX_FACES {
         push_face(mesh, face.map(|k| corners[k as usize]), random);
     }
     corners

@@ -4,12 +4,13 @@ use super::*;
 
 /// Counts rays from `origins` that miss: in random directions, at vertices, and at edge midpoints.
 fn leaks(mesh: &Mesh, origin: impl Fn(&mut Random) -> Vec3<f32>, random_rays: usize) -> usize {
-    let accel = mesh.accel();
+    let accels = [mesh.accel(), mesh.accel().in_tree()];
     let mut random = Random(5);
     let mut missed = 0;
     let mut shoot = |origin: Vec3<f32>, direction: Vec3<f32>| {
         let ray = ray(origin, direction);
-        missed += usize::from(accel.intersect(&ray).is_none() || !accel.occluded(&ray));
+        let leaks = |accel: &Accel| accel.intersect(&ray).is_none() || !accel.occluded(&ray);
+        missed += usize::from(accels.iter().any(leaks));
     };
     for _ in 0..random_rays {
         let from = origin(&mut random);
@@ -72,21 +73,15 @@ fn a_box_of_large_triangles_with_its_edges_along_the_axes() {
     };
     let mesh = Mesh {
         positions: (0..8).map(corner).collect(),
-        triangles: [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ]
-        .iter()
-        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
-        .collect(),
+        triangles: BOX_FACES
+            .iter()
+            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+            .collect(),
     };
     let within = |random: &mut Random| random.vector().hadamard(sizes) * 0.999;
     assert_eq!(leaks(&mesh, within, 200_000), 0);
     let accel = mesh.accel();
+    let tree = accel.clone().in_tree();
     let mut random = Random(6);
     for _ in 0..200_000 {
         // At points of the twelve edges, and within a few ulps of them.
@@ -103,9 +98,9 @@ fn a_box_of_large_triangles_with_its_edges_along_the_axes() {
             target.z = snap(target.z, sizes.z);
         }
         let ray = ray(from, target - from);
-        assert!(
-            accel.intersect(&ray).is_some() && accel.occluded(&ray),
-            "{ray:?}"
-        );
+        for accel in [&accel, &tree] {
+            let hit = accel.intersect(&ray);
+            assert!(hit.is_some() && accel.occluded(&ray), "{ray:?}");
+        }
     }
 }
