@@ -10,10 +10,10 @@
 use std::arch::x86_64::*;
 use std::mem::MaybeUninit;
 
-use super::block::Rays;
+use super::block::RayBlock;
 use super::frame::RayFrame;
-use super::kernel::{EntryStack, Kernel, PacketHits, STACK};
-use super::node::{Child, ChildKind, Lanes, Node8, Packet8};
+use super::kernel::{EntryStack, KEY_BITS, Kernel, PacketHits, STACK};
+use super::node::{Child, ChildKind, Lanes, Node8, Packet8, WIDTH};
 use super::traverse::{self, Scene};
 use super::{Hit, Ray, interleaved};
 
@@ -26,7 +26,8 @@ impl Avx2 {
         let all = is_x86_feature_detected!("avx2")
             && is_x86_feature_detected!("bmi1")
             && is_x86_feature_detected!("bmi2")
-            && is_x86_feature_detected!("lzcnt");
+            && is_x86_feature_detected!("lzcnt")
+            && is_x86_feature_detected!("popcnt");
         all.then_some(Self(()))
     }
 
@@ -54,64 +55,59 @@ impl Avx2 {
         unsafe { occluded_at(self, scene, ray, time) }
     }
 
-    pub(super) fn intersect_interleaved<R: Rays + ?Sized>(
+    pub(super) fn intersect_block(
         self,
         scene: &Scene,
-        rays: &R,
+        rays: (&RayBlock, usize),
         hits: &mut [Option<Hit>],
     ) {
         // SAFETY: `self` proves that the machine has the features.
-        unsafe { intersect_interleaved(self, scene, rays, hits) }
+        unsafe { intersect_block(self, scene, rays, hits) }
     }
 
-    pub(super) fn occluded_interleaved<R: Rays + ?Sized>(
+    pub(super) fn occluded_block(
         self,
         scene: &Scene,
-        rays: &R,
+        rays: (&RayBlock, usize),
         occluded: &mut [bool],
     ) {
         // SAFETY: `self` proves that the machine has the features.
-        unsafe { occluded_interleaved(self, scene, rays, occluded) }
+        unsafe { occluded_block(self, scene, rays, occluded) }
     }
 }
 
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 fn intersect(kernel: Avx2, scene: &Scene, ray: &Ray) -> Option<Hit> {
     traverse::intersect(kernel, scene, ray)
 }
 
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 fn occluded(kernel: Avx2, scene: &Scene, ray: &Ray) -> bool {
     traverse::occluded(kernel, scene, ray)
 }
 
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 fn intersect_at(kernel: Avx2, scene: &Scene, ray: &Ray, time: f32) -> Option<Hit> {
     traverse::intersect_at(kernel, scene, ray, time)
 }
 
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
 fn occluded_at(kernel: Avx2, scene: &Scene, ray: &Ray, time: f32) -> bool {
     traverse::occluded_at(kernel, scene, ray, time)
 }
 
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
-fn intersect_interleaved<R: Rays + ?Sized>(
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn intersect_block(
     kernel: Avx2,
     scene: &Scene,
-    rays: &R,
+    rays: (&RayBlock, usize),
     hits: &mut [Option<Hit>],
 ) {
     interleaved::intersect(kernel, scene, rays, hits);
 }
 
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt")]
-fn occluded_interleaved<R: Rays + ?Sized>(
-    kernel: Avx2,
-    scene: &Scene,
-    rays: &R,
-    occluded: &mut [bool],
-) {
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn occluded_block(kernel: Avx2, scene: &Scene, rays: (&RayBlock, usize), occluded: &mut [bool]) {
     interleaved::occluded(kernel, scene, rays, occluded);
 }
 
@@ -155,6 +151,19 @@ impl Kernel for Avx2 {
     }
 
     #[inline(always)]
+    fn push_children(
+        self,
+        node: &Node8,
+        frame: &RayFrame,
+        t_cull: f32,
+        stack: &mut RawStack,
+        top: usize,
+    ) -> usize {
+        // SAFETY: `self` proves that the machine has the features.
+        unsafe { push_children(node, frame, t_cull, stack, top) }
+    }
+
+    #[inline(always)]
     fn triangles(
         self,
         packet: &Packet8,
@@ -177,6 +186,25 @@ fn prefetch<T>(value: &T) {
     }
 }
 
+/// For each set of lanes these first, then the others: a lane in each byte.
+static LANES_FIRST: [u64; 1 << WIDTH] = {
+    let mut table = [0; 1 << WIDTH];
+    let mut set = 0;
+    while set < 1 << WIDTH {
+        let (mut shift, mut i) = (0, 0);
+        while i < 2 * WIDTH {
+            let (lane, chosen) = (i % WIDTH, i < WIDTH);
+            if (set >> lane & 1 == 1) == chosen {
+                table[set] |= (lane as u64) << shift;
+                shift += 8;
+            }
+            i += 1;
+        }
+        set += 1;
+    }
+    table
+};
+
 #[target_feature(enable = "avx2")]
 #[inline]
 fn load(lanes: &Lanes) -> __m256 {
@@ -191,29 +219,124 @@ fn store(lanes: &mut Lanes, values: __m256) {
     unsafe { _mm256_store_ps(lanes.0.as_mut_ptr(), values) }
 }
 
+/// Where the ray enters and leaves the boxes of children.
 #[target_feature(enable = "avx2")]
 #[inline]
-fn boxes(node: &Node8, frame: &RayFrame, t_cull: f32, entry: &mut Lanes) -> u32 {
+fn slabs(node: &Node8, frame: &RayFrame, t_cull: f32) -> [__m256; 2] {
+    // With as many elements as an index may have, which needs no check then.
+    let planes: &[Lanes; 8] = bytemuck::cast_ref(node);
+    let origin = frame.ray.origin.to_array();
     let mut near = _mm256_setzero_ps();
     let mut far = _mm256_set1_ps(t_cull);
     for axis in 0..3 {
-        let near_side = usize::from(frame.near[axis]);
-        let origin = _mm256_set1_ps(frame.origin[axis]);
-        let near_scale = _mm256_set1_ps(frame.near_scale[axis]);
-        let far_scale = _mm256_set1_ps(frame.far_scale[axis]);
-        let t = _mm256_mul_ps(
-            _mm256_sub_ps(load(&node.bounds[near_side]), origin),
-            near_scale,
-        );
+        let near_side = usize::from(frame.near[axis] % 8);
+        let origin = _mm256_set1_ps(origin[axis]);
+        let t = _mm256_sub_ps(load(&planes[near_side]), origin);
+        let t = _mm256_mul_ps(t, _mm256_set1_ps(frame.near_scale[axis]));
         near = _mm256_max_ps(t, near);
-        let t = _mm256_mul_ps(
-            _mm256_sub_ps(load(&node.bounds[near_side ^ 1]), origin),
-            far_scale,
-        );
+        let t = _mm256_sub_ps(load(&planes[near_side ^ 1]), origin);
+        let t = _mm256_mul_ps(t, _mm256_set1_ps(frame.far_scale[axis]));
         far = _mm256_min_ps(t, far);
     }
+    [near, far]
+}
+
+#[target_feature(enable = "avx2")]
+#[inline]
+fn boxes(node: &Node8, frame: &RayFrame, t_cull: f32, entry: &mut Lanes) -> u32 {
+    let [near, far] = slabs(node, frame, t_cull);
     store(entry, near);
     _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(near, far)).cast_unsigned()
+}
+
+/// The lanes that are hit come first, sorted. Lanes beyond them are written, too, above the new
+/// top.
+#[target_feature(enable = "avx2,popcnt")]
+#[inline]
+fn push_children(
+    node: &Node8,
+    frame: &RayFrame,
+    t_cull: f32,
+    stack: &mut RawStack,
+    top: usize,
+) -> usize {
+    let [near, far] = slabs(node, frame, t_cull);
+    let hit = _mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
+    let mask = _mm256_movemask_ps(hit).cast_unsigned() & 0xff;
+    let keys = _mm256_and_si256(keys(near), _mm256_castps_si256(hit));
+    let order = _mm_cvtsi64_si128(LANES_FIRST[mask as usize].cast_signed());
+    let keys = _mm256_permutevar8x32_epi32(keys, _mm256_cvtepu8_epi32(order));
+    let count = mask.count_ones() as usize;
+    // More than four are rare.
+    let keys = if count <= 4 {
+        _mm256_zextsi128_si256(sorted4(_mm256_castsi256_si128(keys)))
+    } else {
+        sorted8(keys)
+    };
+    // SAFETY: the children are 32 bytes long.
+    let children = unsafe { _mm256_loadu_si256(node.children.as_ptr().cast()) };
+    // The last three bits of a key are its lane.
+    let children = _mm256_permutevar8x32_epi32(children, keys);
+    let low = _mm256_unpacklo_epi32(children, keys);
+    let high = _mm256_unpackhi_epi32(children, keys);
+    let above = &mut stack.0[top..top + WIDTH];
+    let entries = [
+        _mm256_permute2x128_si256::<0x20>(low, high),
+        _mm256_permute2x128_si256::<0x31>(low, high),
+    ];
+    for (above, entries) in above.chunks_exact_mut(4).zip(entries) {
+        // SAFETY: the slice is 32 bytes long.
+        unsafe { _mm256_storeu_si256(above.as_mut_ptr().cast(), entries) };
+    }
+    top + count
+}
+
+/// Keys of distances: the lane in the last three bits, and a bit that makes them greater than 0.
+#[target_feature(enable = "avx2")]
+#[inline]
+fn keys(near: __m256) -> __m256i {
+    let distance = _mm256_andnot_si256(
+        _mm256_set1_epi32((1 << KEY_BITS) - 1),
+        _mm256_castps_si256(near),
+    );
+    _mm256_or_si256(distance, _mm256_setr_epi32(8, 9, 10, 11, 12, 13, 14, 15))
+}
+
+/// Four unsigned numbers in descending order, by a sorting network.
+#[target_feature(enable = "avx2")]
+#[inline]
+fn sorted4(x: __m128i) -> __m128i {
+    // Each lane and its partner: the lesser one where `$less` has a bit, else the greater one.
+    macro_rules! layer {
+        ($x:expr, $partner:literal, $less:literal) => {{
+            let partner = _mm_shuffle_epi32::<$partner>($x);
+            let (lo, hi) = (_mm_min_epu32($x, partner), _mm_max_epu32($x, partner));
+            _mm_blend_epi32::<$less>(hi, lo)
+        }};
+    }
+    let x = layer!(x, 0b01_00_11_10, 0b1100);
+    let x = layer!(x, 0b10_11_00_01, 0b1010);
+    layer!(x, 0b11_01_10_00, 0b0100)
+}
+
+/// Eight unsigned numbers in descending order, by Batcher's sorting network.
+#[target_feature(enable = "avx2")]
+#[inline]
+fn sorted8(x: __m256i) -> __m256i {
+    macro_rules! layer {
+        ($x:expr, $partner:expr, $less:literal) => {{
+            let (x, partner) = ($x, $partner);
+            let (lo, hi) = (_mm256_min_epu32(x, partner), _mm256_max_epu32(x, partner));
+            _mm256_blend_epi32::<$less>(hi, lo)
+        }};
+    }
+    let x = layer!(x, _mm256_shuffle_epi32::<0b10_11_00_01>(x), 0b1010_1010);
+    let x = layer!(x, _mm256_shuffle_epi32::<0b01_00_11_10>(x), 0b1100_1100);
+    let x = layer!(x, _mm256_shuffle_epi32::<0b11_01_10_00>(x), 0b0100_0100);
+    let x = layer!(x, _mm256_permute4x64_epi64::<0b01_00_11_10>(x), 0b1111_0000);
+    let x = layer!(x, _mm256_permute4x64_epi64::<0b11_01_10_00>(x), 0b0011_0000);
+    let swapped = _mm256_permutevar8x32_epi32(x, _mm256_setr_epi32(0, 2, 1, 4, 3, 6, 5, 7));
+    layer!(x, swapped, 0b0101_0100)
 }
 
 /// `a0 b1 - a1 b0`, see [`super::triangle::edge_functions`].

@@ -54,37 +54,6 @@ impl RayBlock {
     }
 }
 
-/// Rays that can be asked for one by one.
-pub(super) trait Rays {
-    fn count(&self) -> usize;
-    fn ray(&self, k: usize) -> Ray;
-}
-
-impl Rays for [Ray] {
-    #[inline(always)]
-    fn count(&self) -> usize {
-        self.len()
-    }
-
-    #[inline(always)]
-    fn ray(&self, k: usize) -> Ray {
-        self[k]
-    }
-}
-
-/// The first rays of a block.
-impl Rays for (&RayBlock, usize) {
-    #[inline(always)]
-    fn count(&self) -> usize {
-        self.1.min(BLOCK)
-    }
-
-    #[inline(always)]
-    fn ray(&self, k: usize) -> Ray {
-        self.0.get(k % BLOCK)
-    }
-}
-
 /// The closest hits of a block of rays.
 #[derive(Clone, Debug)]
 pub(crate) struct BlockHits {

@@ -1,6 +1,7 @@
 //! A ray, prepared for the kernels: reciprocals for the slabs, shear for the triangles.
 
 use super::Ray;
+use super::block::{BLOCK, RayBlock};
 
 /// Slack of the slab test, `1 + 16 u` with `u = 2^-24`.
 ///
@@ -16,7 +17,6 @@ pub(super) const AXES: [[u8; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RayFrame {
     pub(super) ray: Ray,
-    pub(super) origin: [f32; 3],
     /// `1 / direction`, infinite where that is 0.
     pub(super) near_scale: [f32; 3],
     /// The same with [`SLACK`].
@@ -36,21 +36,16 @@ impl RayFrame {
     /// `None` where the ray cannot hit: not finite, without direction, or `t_max` not positive.
     #[inline(always)]
     pub(super) fn new(ray: &Ray) -> Option<Self> {
-        let z = usize::from(greatest_axis(ray)?);
         let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
+        let z = usize::from(greatest_axis(ray)?);
         let axes = AXES[z];
         let [x, y] = [usize::from(axes[0]), usize::from(axes[1])];
         let near_scale = d.map(|c| 1.0 / c);
         Some(Self {
             ray: *ray,
-            origin: o,
             near_scale,
             far_scale: near_scale.map(|r| r * SLACK),
-            near: [
-                u8::from(d[0].is_sign_negative()),
-                2 + u8::from(d[1].is_sign_negative()),
-                4 + u8::from(d[2].is_sign_negative()),
-            ],
+            near: nearer_sides(&d),
             axes,
             sheared_origin: [o[x], o[y], o[z]],
             shear: [d[x] / d[z], d[y] / d[z], near_scale[z]],
@@ -58,11 +53,106 @@ impl RayFrame {
     }
 }
 
-/// The axis in which the direction is greatest; `None` where the ray cannot hit: not finite, without
-/// direction, or `t_max` not positive.
+#[inline(always)]
+fn nearer_sides(direction: &[f32; 3]) -> [u8; 3] {
+    let [x, y, z] = direction.map(|c| u8::from(c.is_sign_negative()));
+    [x, 2 + y, 4 + z]
+}
+
+/// The frames of sixteen rays of a block: what takes divisions is computed for all at once.
+pub(super) struct FrameGroup<'a> {
+    pub(super) rays: &'a RayBlock,
+    first: usize,
+    /// 1 over the directions.
+    reciprocal: [[f32; GROUP]; 3],
+    /// The first two factors of the shear.
+    shear: [[f32; GROUP]; 2],
+    /// In which the directions are greatest; [`NO_AXIS`]: the ray cannot hit.
+    axis: [u8; GROUP],
+}
+
+/// Rays of a group.
+pub(super) const GROUP: usize = 16;
+
+/// Of rays that cannot hit.
+const NO_AXIS: u8 = 3;
+
+impl<'a> FrameGroup<'a> {
+    /// * `first`: index of the first ray, a multiple of [`GROUP`].
+    #[inline(always)]
+    pub(super) fn new(rays: &'a RayBlock, first: usize) -> Self {
+        let first = first.min(BLOCK - GROUP);
+        let column = |values: &[f32; BLOCK]| -> [f32; GROUP] {
+            let mut column = [0.0; GROUP];
+            column.copy_from_slice(&values[first..first + GROUP]);
+            column
+        };
+        let (o, d) = (&rays.origin, &rays.direction);
+        let o = [&o.x, &o.y, &o.z].map(|c| column(c));
+        let d = [&d.x, &d.y, &d.z].map(|c| column(c));
+        let t_max = column(&rays.t_max);
+        let mut group = Self {
+            rays,
+            first,
+            reciprocal: [[0.0; GROUP]; 3],
+            shear: [[0.0; GROUP]; 2],
+            axis: [NO_AXIS; GROUP],
+        };
+        for (reciprocal, d) in group.reciprocal.iter_mut().zip(&d) {
+            for k in 0..GROUP {
+                reciprocal[k] = 1.0 / d[k];
+            }
+        }
+        for k in 0..GROUP {
+            let (o, [x, y, z]) = ([o[0][k], o[1][k], o[2][k]], [d[0][k], d[1][k], d[2][k]]);
+            let (axis, can_hit) = axis_of(o, [x, y, z], t_max[k]);
+            group.axis[k] = if can_hit { axis } else { NO_AXIS };
+            // As `AXES` says, but compiled to selections.
+            let pick = |first, second, third| match axis {
+                0 => first,
+                1 => second,
+                _ => third,
+            };
+            let greatest = pick(x, y, z);
+            group.shear[0][k] = pick(y, z, x) / greatest;
+            group.shear[1][k] = pick(z, x, y) / greatest;
+        }
+        group
+    }
+
+    /// The frame of a ray of the group; `None` where it cannot hit.
+    #[inline(always)]
+    pub(super) fn get(&self, index: usize) -> Option<RayFrame> {
+        let k = index % GROUP;
+        let &axes = AXES.get(usize::from(self.axis[k]))?;
+        let ray = self.rays.get((self.first + k) % BLOCK);
+        let o = ray.origin.to_array();
+        let near_scale = [0, 1, 2].map(|axis| self.reciprocal[axis][k]);
+        let [x, y, z] = axes.map(usize::from);
+        Some(RayFrame {
+            ray,
+            near_scale,
+            far_scale: near_scale.map(|r| r * SLACK),
+            near: nearer_sides(&ray.direction.to_array()),
+            axes,
+            sheared_origin: [o[x], o[y], o[z]],
+            shear: [self.shear[0][k], self.shear[1][k], near_scale[z]],
+        })
+    }
+}
+
+/// The axis in which the direction is greatest; `None` where the ray cannot hit.
 #[inline(always)]
 pub(super) fn greatest_axis(ray: &Ray) -> Option<u8> {
     let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
+    let (axis, can_hit) = axis_of(o, d, ray.t_max);
+    can_hit.then_some(axis)
+}
+
+/// The axis in which a direction is greatest, and whether the ray can hit: it is finite, has a direction, and `t_max` is
+/// positive.
+#[inline(always)]
+fn axis_of(o: [f32; 3], d: [f32; 3], t_max: f32) -> (u8, bool) {
     // Infinite and NaN components make NaN, finite ones 0.
     let finite =
         (o[0] * 0.0 + o[1] * 0.0 + o[2] * 0.0) + (d[0] * 0.0 + d[1] * 0.0 + d[2] * 0.0) == 0.0;
@@ -73,6 +163,5 @@ pub(super) fn greatest_axis(ray: &Ray) -> Option<u8> {
     } else {
         2 - u8::from((y >= x) & (y > z))
     };
-    let can_hit = finite & (x.max(y).max(z) > 0.0) & (ray.t_max > 0.0);
-    can_hit.then_some(axis)
+    (axis, finite & (x.max(y).max(z) > 0.0) & (t_max > 0.0))
 }

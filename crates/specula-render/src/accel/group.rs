@@ -7,7 +7,7 @@ use super::collapse::{self, Tree};
 use super::kernel::MAX_DEPTH;
 use super::node::{Child, ChildKind, Node8, Packet8};
 use super::traverse::Scene;
-use super::{Bounds, CurveSegment, Group, curve, patch, quadric, triangle};
+use super::{Bounds, CurveSegment, Group, curve, huge_pages, patch, quadric, triangle};
 
 /// A group's arrays, with indices of its own, and their tree.
 pub(super) struct GroupTree {
@@ -316,6 +316,8 @@ impl Arrays {
     fn reserve(&mut self, items: usize) {
         self.nodes.reserve(items / 9);
         self.leaves.packets.reserve(items / 2);
+        huge_pages::advise(&self.nodes);
+        huge_pages::advise(&self.leaves.packets);
     }
 
     /// Appends other arrays.

@@ -8,8 +8,8 @@ use super::triangle::{self, max, min};
 /// Most levels of 8-wide nodes that a tree may have; deeper ones are rebuilt balanced.
 pub(super) const MAX_DEPTH: usize = 36;
 
-/// Size of the stack: each level pushes at most seven siblings.
-pub(super) const STACK: usize = (WIDTH - 1) * MAX_DEPTH;
+/// Size of the stack: each level leaves at most seven siblings on it, and lanes are written eight at a time.
+pub(super) const STACK: usize = (WIDTH - 1) * MAX_DEPTH + WIDTH;
 
 /// Distances and weights of the triangles of a packet.
 #[derive(Clone, Copy, Debug, Default)]
@@ -19,7 +19,17 @@ pub(super) struct PacketHits {
     pub(super) v: Lanes,
 }
 
-/// A stack of [`STACK`] entries.
+/// Bits of distances that do not order entries of [`Kernel::push_children`].
+pub(super) const KEY_BITS: u32 = 4;
+
+/// Whether an entry's distance may be at most `t`.
+#[inline(always)]
+pub(super) fn is_within(entry: u64, t: f32) -> bool {
+    (entry >> 32) as u32 <= t.to_bits() | ((1 << KEY_BITS) - 1)
+}
+
+/// A stack of [`STACK`] entries: the bits of the distance where a ray enters a box (not negative, so they sort as it
+/// does) and below them the child.
 pub(super) trait EntryStack {
     /// Writes an entry; `at < STACK`.
     fn set(&mut self, at: usize, entry: u64);
@@ -37,6 +47,18 @@ pub(super) trait Kernel: Copy {
     fn prefetch(self, scene: &Scene, child: Child);
     /// Which children's boxes the ray hits in `[0, t_cull]`, as bits, and where it enters them.
     fn boxes(self, node: &Node8, frame: &RayFrame, t_cull: f32, entry: &mut Lanes) -> u32;
+    /// Pushes those children, the nearest last, without branches on how many they are. Returns how many entries the
+    /// stack has then.
+    ///
+    /// * `top`: how many it has.
+    fn push_children(
+        self,
+        node: &Node8,
+        frame: &RayFrame,
+        t_cull: f32,
+        stack: &mut Self::Stack,
+        top: usize,
+    ) -> usize;
     /// Which triangles the ray hits in `(0, t_most]`, as bits, and where.
     fn triangles(
         self,
@@ -77,12 +99,13 @@ impl Kernel for Portable {
     #[inline(always)]
     fn boxes(self, node: &Node8, frame: &RayFrame, t_cull: f32, entry: &mut Lanes) -> u32 {
         // Where the ray lies in a box's face, 0 * inf is NaN: `min` and `max` then return the other operand.
+        let origin = frame.ray.origin.to_array();
         let mut far = [t_cull; WIDTH];
         entry.0 = [0.0; WIDTH];
         for axis in 0..3 {
             let near_side = usize::from(frame.near[axis]);
             let (nears, fars) = (&node.bounds[near_side].0, &node.bounds[near_side ^ 1].0);
-            let origin = frame.origin[axis];
+            let origin = origin[axis];
             for lane in 0..WIDTH {
                 let t = (nears[lane] - origin) * frame.near_scale[axis];
                 entry.0[lane] = max(t, entry.0[lane]);
@@ -91,6 +114,33 @@ impl Kernel for Portable {
             }
         }
         bits(|lane| entry.0[lane] <= far[lane])
+    }
+
+    #[inline(always)]
+    fn push_children(
+        self,
+        node: &Node8,
+        frame: &RayFrame,
+        t_cull: f32,
+        stack: &mut Self::Stack,
+        mut top: usize,
+    ) -> usize {
+        let mut entries = Lanes::default();
+        let mask = self.boxes(node, frame, t_cull, &mut entries);
+        let base = top;
+        for lane in (0..WIDTH).filter(|lane| mask >> lane & 1 == 1) {
+            let child = u64::from(node.children[lane].0);
+            let entry = (u64::from(entries.0[lane].to_bits()) << 32) | child;
+            // The farthest at the bottom.
+            let mut at = top;
+            while at > base && stack.get(at - 1) < entry {
+                stack.set(at, stack.get(at - 1));
+                at -= 1;
+            }
+            stack.set(at, entry);
+            top += 1;
+        }
+        top
     }
 
     #[inline(always)]

@@ -32,6 +32,7 @@ mod curve;
 mod flat;
 mod frame;
 mod group;
+mod huge_pages;
 mod input;
 mod instances;
 mod interleaved;
@@ -63,7 +64,6 @@ pub(crate) use triangle::has_area;
 
 #[cfg(target_arch = "x86_64")]
 use avx2::Avx2;
-use block::Rays;
 use brute_force::SmallScene;
 use collapse::Tree;
 use group::GroupTree;
@@ -294,7 +294,9 @@ impl Accel {
         if let Some(small) = &self.small {
             return small.intersect(rays, hits);
         }
-        self.intersect_in_tree(rays, hits);
+        for rays in rays.chunks(BLOCK) {
+            self.intersect_in_tree((&RayBlock::of(rays), rays.len()), hits);
+        }
     }
 
     /// Of a small scene the primitives at each place, one of them twice where there is one, and the instance.
@@ -308,22 +310,20 @@ impl Accel {
             Some(small) => small.intersect_block(rays, n, &mut hits.small),
             None => {
                 hits.hits.clear();
-                self.intersect_in_tree(&(rays, n), &mut hits.hits);
+                self.intersect_in_tree((rays, n), &mut hits.hits);
             }
         }
     }
 
     /// Appends the hits of rays.
-    fn intersect_in_tree<R: Rays + ?Sized>(&self, rays: &R, hits: &mut Vec<Option<Hit>>) {
-        let n = rays.count();
-        if !interleaved::gains(&self.scene, rays) {
-            return hits.extend((0..n).map(|k| self.intersect(&rays.ray(k))));
-        }
-        hits.resize(n, None);
+    fn intersect_in_tree(&self, (rays, n): (&RayBlock, usize), hits: &mut Vec<Option<Hit>>) {
+        let first = hits.len();
+        hits.resize(first + n, None);
+        let (scene, hits) = (&self.scene, &mut hits[first..]);
         match self.kernel {
-            KernelChoice::Portable => interleaved::intersect(Portable, &self.scene, rays, hits),
+            KernelChoice::Portable => interleaved::intersect(Portable, scene, (rays, n), hits),
             #[cfg(target_arch = "x86_64")]
-            KernelChoice::Avx2(kernel) => kernel.intersect_interleaved(&self.scene, rays, hits),
+            KernelChoice::Avx2(kernel) => kernel.intersect_block(scene, (rays, n), hits),
         }
     }
 
@@ -333,7 +333,9 @@ impl Accel {
         if let Some(small) = &self.small {
             return small.occluded(rays, occluded);
         }
-        self.occluded_in_tree(rays, occluded);
+        for rays in rays.chunks(BLOCK) {
+            self.occluded_in_tree((&RayBlock::of(rays), rays.len()), occluded);
+        }
     }
 
     /// Whether the first `n` rays of a block hit anything.
@@ -344,21 +346,19 @@ impl Accel {
                 occluded.resize(n, false);
                 small.occluded_block(rays, occluded);
             }
-            None => self.occluded_in_tree(&(rays, n), occluded),
+            None => self.occluded_in_tree((rays, n), occluded),
         }
     }
 
     /// Appends whether rays hit anything.
-    fn occluded_in_tree<R: Rays + ?Sized>(&self, rays: &R, occluded: &mut Vec<bool>) {
-        let n = rays.count();
-        if !interleaved::gains(&self.scene, rays) {
-            return occluded.extend((0..n).map(|k| self.occluded(&rays.ray(k))));
-        }
-        occluded.resize(n, false);
+    fn occluded_in_tree(&self, (rays, n): (&RayBlock, usize), occluded: &mut Vec<bool>) {
+        let first = occluded.len();
+        occluded.resize(first + n, false);
+        let (scene, occluded) = (&self.scene, &mut occluded[first..]);
         match self.kernel {
-            KernelChoice::Portable => interleaved::occluded(Portable, &self.scene, rays, occluded),
+            KernelChoice::Portable => interleaved::occluded(Portable, scene, (rays, n), occluded),
             #[cfg(target_arch = "x86_64")]
-            KernelChoice::Avx2(kernel) => kernel.occluded_interleaved(&self.scene, rays, occluded),
+            KernelChoice::Avx2(kernel) => kernel.occluded_block(scene, (rays, n), occluded),
         }
     }
 

@@ -92,15 +92,26 @@ pub(super) fn occluded<K: Kernel>(kernel: K, scene: &Scene, ray: &Ray) -> bool {
 fn cast<K: Kernel, const ANY: bool>(kernel: K, scene: &Scene, ray: &Ray) -> Option<ClosestHit> {
     let root = scene.root?;
     let frame = RayFrame::new(ray)?;
-    let mut best = ClosestHit::new(ray.t_max);
+    Some(cast_frame::<K, ANY>(kernel, scene, root, &frame))
+}
+
+/// [`cast`] of a ray that can hit.
+#[inline(always)]
+pub(super) fn cast_frame<K: Kernel, const ANY: bool>(
+    kernel: K,
+    scene: &Scene,
+    root: Child,
+    frame: &RayFrame,
+) -> ClosestHit {
+    let mut best = ClosestHit::new(frame.ray.t_max);
     if let Some(instance) = scene.single {
         let leaves = GroupLeaves { scene, instance };
-        traverse_tree::<K, _, ANY>(kernel, scene, root, &frame, &leaves, &mut best);
+        traverse_tree::<K, _, ANY>(kernel, scene, root, frame, &leaves, &mut best);
     } else {
         let leaves = TopLeaves { scene };
-        traverse_tree::<K, _, ANY>(kernel, scene, root, &frame, &leaves, &mut best);
+        traverse_tree::<K, _, ANY>(kernel, scene, root, frame, &leaves, &mut best);
     }
-    Some(best)
+    best
 }
 
 /// [`intersect`] at a time, where instances move.

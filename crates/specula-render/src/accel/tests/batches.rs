@@ -5,8 +5,8 @@ use specula_scene::scene::QuadricPart;
 
 #[cfg(target_arch = "x86_64")]
 use super::super::avx2::Avx2;
-use super::super::interleaved;
 use super::super::kernel::Portable;
+use super::super::{BLOCK, RayBlock, interleaved};
 use super::*;
 
 /// Spheres, disks and parts of cylinders, some squeezed.
@@ -371,7 +371,7 @@ fn what_is_small_in_a_room_is_not_passed_by() {
 fn interleaved_rays_are_rays_one_by_one() {
     let mut random = Random(23);
     let mut count = 0;
-    for (triangles, spheres) in [(1, 0), (0, 1), (500, 30), (5000, 0)] {
+    for (triangles, spheres) in [(1, 0), (0, 1), (500, 30), (5000, 0), (60_000, 30)] {
         let mesh = Mesh::soup(triangles, &mut random);
         let quadrics = quadrics(spheres, &mut random);
         let group = Group {
@@ -381,16 +381,17 @@ fn interleaved_rays_are_rays_one_by_one() {
         let accel = Accel::build(&[group], &[Instance::of(0)]).unwrap();
         let scene = &accel.scene;
         let rays = rays(20_000, &mesh, &mut random);
-        // Fewer than are interleaved, too.
-        for batch in [&rays[..], &rays[..2], &rays[..0]] {
+        for batch in rays.chunks(BLOCK).chain([&rays[..2], &rays[..0]]) {
             let (mut hits, mut found) = (vec![None; batch.len()], vec![false; batch.len()]);
-            interleaved::intersect(Portable, scene, batch, &mut hits);
-            interleaved::occluded(Portable, scene, batch, &mut found);
+            let block = RayBlock::of(batch);
+            let block = (&block, batch.len());
+            interleaved::intersect(Portable, scene, block, &mut hits);
+            interleaved::occluded(Portable, scene, block, &mut found);
             #[cfg(target_arch = "x86_64")]
             if let Some(kernel) = Avx2::detect() {
                 let (mut other, mut others) = (vec![None; batch.len()], vec![false; batch.len()]);
-                kernel.intersect_interleaved(scene, batch, &mut other);
-                kernel.occluded_interleaved(scene, batch, &mut others);
+                kernel.intersect_block(scene, block, &mut other);
+                kernel.occluded_block(scene, block, &mut others);
                 let bits = |hits: Vec<Option<Hit>>| hits.into_iter().map(exact).collect::<Vec<_>>();
                 assert_eq!((bits(other), others), (bits(hits.clone()), found.clone()));
             }
@@ -405,20 +406,15 @@ fn interleaved_rays_are_rays_one_by_one() {
 }
 
 #[test]
-fn incoherent_rays_in_a_large_tree_gain_by_interleaving() {
+fn rays_in_a_large_tree_gain_by_interleaving() {
     let mut random = Random(24);
     let large = Mesh::soup(60_000, &mut random).accel();
     let small = Mesh::soup(1000, &mut random).accel();
-    let parting: Vec<Ray> = (0..256)
+    let rays: Vec<Ray> = (0..2000)
         .map(|_| ray(Vec3::ZERO, random.direction()))
         .collect();
-    let mut narrow = parting.clone();
-    for ray in &mut narrow {
-        ray.direction = ray.direction * 0.1 + Vec3::Z * 3.0;
-    }
-    assert!(interleaved::gains(&large.scene, &parting[..]));
-    assert!(!interleaved::gains(&large.scene, &narrow[..]));
-    assert!(!interleaved::gains(&small.scene, &parting[..]));
-    assert!(compare(&large, &parting) > 100);
-    assert_eq!(compare(&large.portable(), &narrow), 256);
+    assert!(interleaved::gains(&large.scene));
+    assert!(!interleaved::gains(&small.scene));
+    assert!(compare(&large, &rays) > 1000);
+    assert!(compare(&large.portable(), &rays) > 1000);
 }

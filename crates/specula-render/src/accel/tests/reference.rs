@@ -2,8 +2,11 @@
 
 #[cfg(target_arch = "x86_64")]
 use super::super::avx2::Avx2;
-use super::super::kernel::{Kernel, Portable};
-use super::super::node::{Child, ChildKind, Lanes, Node8};
+use super::super::frame::{FrameGroup, GROUP};
+use super::super::kernel::{EntryStack, KEY_BITS, Kernel, Portable, is_within};
+use super::super::node::{Child, ChildKind, Lanes, Node8, WIDTH};
+use super::super::traverse::child_of;
+use super::super::{BLOCK, RayBlock};
 use super::*;
 
 /// Rays of all kinds: random, along axes, with zeros and negative zeros, limited, from a vertex.
@@ -114,18 +117,99 @@ fn equal_distances_in_a_plane_go_to_the_smallest_index() {
     }
 }
 
-/// Children that a ray meets, by each kernel that there is.
-fn boxes_met(bounds: &Bounds, ray: &Ray) -> Vec<u32> {
-    let mut node = Node8::EMPTY;
-    node.set(3, bounds, Child::new(ChildKind::Node, 0));
+#[test]
+fn frames_of_groups_are_those_of_rays() {
+    let mut random = Random(72);
+    let mesh = Mesh::soup(50, &mut random);
+    let mut rays = rays(BLOCK - 3, &mesh, &mut random);
+    for (k, ray) in rays.iter_mut().enumerate() {
+        match k % 31 {
+            3 => ray.direction.y = f32::NAN,
+            5 => ray.direction = Vec3::ZERO,
+            9 => ray.t_max = 0.0,
+            12 => ray.origin.z = f32::INFINITY,
+            17 => ray.direction = vec3(0.25, -0.25, 0.25),
+            _ => {}
+        }
+    }
+    let block = RayBlock::of(&rays);
+    for first in (0..rays.len()).step_by(GROUP) {
+        let group = FrameGroup::new(&block, first);
+        for (index, ray) in rays.iter().enumerate().skip(first).take(GROUP) {
+            let [one, other] = [RayFrame::new(ray), group.get(index)];
+            assert_eq!(format!("{one:?}"), format!("{other:?}"));
+        }
+    }
+    assert!(rays.iter().any(|ray| RayFrame::new(ray).is_none()));
+}
+
+/// What each kernel that there is pushes onto its stack for a node: distances, the farthest first, and children.
+fn pushed(node: &Node8, ray: &Ray, t_cull: f32) -> Vec<Vec<(u32, Child)>> {
+    fn of<K: Kernel>(kernel: K, node: &Node8, frame: &RayFrame, t_cull: f32) -> Vec<(u32, Child)> {
+        let mut stack = kernel.stack();
+        // Not at the bottom, as for most nodes.
+        let first = kernel.push_children(node, frame, t_cull, &mut stack, 0);
+        let top = kernel.push_children(node, frame, t_cull, &mut stack, first);
+        let mut entries = Lanes::default();
+        let mask = kernel.boxes(node, frame, t_cull, &mut entries);
+        assert_eq!(mask.count_ones() as usize, top - first);
+        let entries: Vec<u64> = (first..top).map(|at| stack.get(at)).collect();
+        assert!(entries.iter().all(|&entry| is_within(entry, t_cull)));
+        let parts = entries.iter().map(|&e| ((e >> 32) as u32, child_of(e)));
+        parts.collect()
+    }
     let frame = RayFrame::new(ray).unwrap();
-    let (t, mut entry) = (f32::INFINITY, Lanes::default());
-    let mut masks = vec![Portable.boxes(&node, &frame, t, &mut entry)];
+    let mut all = vec![of(Portable, node, &frame, t_cull)];
     #[cfg(target_arch = "x86_64")]
     if let Some(kernel) = Avx2::detect() {
-        masks.push(kernel.boxes(&node, &frame, t, &mut entry));
+        all.push(of(kernel, node, &frame, t_cull));
     }
-    masks
+    all
+}
+
+/// How many boxes a ray meets of one, by each kernel.
+fn boxes_met(bounds: &Bounds, ray: &Ray) -> Vec<usize> {
+    let mut node = Node8::EMPTY;
+    node.set(3, bounds, Child::new(ChildKind::Node, 0));
+    let all = pushed(&node, ray, f32::INFINITY);
+    all.iter().map(Vec::len).collect()
+}
+
+#[test]
+fn children_are_pushed_by_their_distance() {
+    let mut random = Random(71);
+    let mut counts = [0; WIDTH + 1];
+    for _ in 0..4000 {
+        let origin = random.direction() * 2.0;
+        let ray = ray(origin, random.vector() * 0.4 - origin);
+        let mut node = Node8::EMPTY;
+        for lane in 0..WIDTH {
+            if random.signed() > 0.8 {
+                continue;
+            }
+            let corners = [(); 2].map(|()| random.direction().to_array());
+            let child = Child::new(ChildKind::Packet, 100 + lane);
+            node.set(lane, &Bounds::around(&corners), child);
+        }
+        let t_cull = if random.signed() > 0.0 {
+            0.9
+        } else {
+            f32::INFINITY
+        };
+        let all = pushed(&node, &ray, t_cull);
+        counts[all[0].len()] += 1;
+        for entries in &all {
+            assert!(entries.is_sorted_by(|a, b| a.0 >= b.0), "{entries:?}");
+            // The same children, at the same distances but for the bits that order nothing.
+            let by_child = |entries: &[(u32, Child)]| {
+                let mut list: Vec<_> = entries.iter().map(|e| (e.1.0, e.0 >> KEY_BITS)).collect();
+                list.sort_unstable();
+                list
+            };
+            assert_eq!(by_child(entries), by_child(&all[0]));
+        }
+    }
+    assert!(counts[..6].iter().all(|&n| n > 20), "{counts:?}");
 }
 
 #[test]
@@ -139,7 +223,7 @@ fn rays_within_a_face_meet_the_box() {
         for x in [-1.0, 0.0, 5.0] {
             for y in [2.0, 4.0, 7.0] {
                 let ray = ray(vec3(x, y, -10.0), vec3(zero, zero, 1.0));
-                assert!(boxes_met(&bounds, &ray).iter().all(|&m| m == 8), "{ray:?}");
+                assert!(boxes_met(&bounds, &ray).iter().all(|&m| m == 1), "{ray:?}");
             }
         }
         for (x, y) in [
@@ -152,7 +236,7 @@ fn rays_within_a_face_meet_the_box() {
             assert!(boxes_met(&bounds, &ray).iter().all(|&m| m == 0), "{ray:?}");
         }
         let within = ray(vec3(-9.0, 2.0, 3.0), vec3(1.0, zero, zero));
-        assert!(boxes_met(&bounds, &within).iter().all(|&m| m == 8));
+        assert!(boxes_met(&bounds, &within).iter().all(|&m| m == 1));
     }
 }
 
