@@ -152,9 +152,13 @@ fn pushed(node: &Node8, ray: &Ray, t_cull: f32) -> Vec<Vec<(u32, Child)>> {
         let top = kernel.push_children(node, frame, t_cull, &mut stack, first);
         let mut entries = Lanes::default();
         let mask = kernel.boxes(node, frame, t_cull, &mut entries);
-        assert_eq!(mask.count_ones() as usize, top - first);
         let entries: Vec<u64> = (first..top).map(|at| stack.get(at)).collect();
         assert!(entries.iter().all(|&entry| is_within(entry, t_cull)));
+        let lanes = (0..WIDTH).filter(|lane| mask >> lane & 1 == 1);
+        let met: Vec<u32> = lanes.map(|lane| node.children[lane].0).collect();
+        let mut children: Vec<u32> = entries.iter().map(|&e| child_of(e).0).collect();
+        children.sort_unstable();
+        assert_eq!(children, met);
         let parts = entries.iter().map(|&e| ((e >> 32) as u32, child_of(e)));
         parts.collect()
     }
@@ -167,12 +171,16 @@ fn pushed(node: &Node8, ray: &Ray, t_cull: f32) -> Vec<Vec<(u32, Child)>> {
     all
 }
 
-/// How many boxes a ray meets of one, by each kernel.
-fn boxes_met(bounds: &Bounds, ray: &Ray) -> Vec<usize> {
+/// Children that a ray meets, as bits, by each kernel that there is.
+fn boxes_met(bounds: &Bounds, ray: &Ray) -> Vec<u32> {
     let mut node = Node8::EMPTY;
-    node.set(3, bounds, Child::new(ChildKind::Node, 0));
+    node.set(3, bounds, Child::new(ChildKind::Node, 3));
     let all = pushed(&node, ray, f32::INFINITY);
-    all.iter().map(Vec::len).collect()
+    let bits = |entries: &Vec<(u32, Child)>| {
+        let children = entries.iter().map(|entry| 1 << entry.1.index());
+        children.fold(0, |bits: u32, bit: u32| bits | bit)
+    };
+    all.iter().map(bits).collect()
 }
 
 #[test]
@@ -223,7 +231,7 @@ fn rays_within_a_face_meet_the_box() {
         for x in [-1.0, 0.0, 5.0] {
             for y in [2.0, 4.0, 7.0] {
                 let ray = ray(vec3(x, y, -10.0), vec3(zero, zero, 1.0));
-                assert!(boxes_met(&bounds, &ray).iter().all(|&m| m == 1), "{ray:?}");
+                assert!(boxes_met(&bounds, &ray).iter().all(|&m| m == 8), "{ray:?}");
             }
         }
         for (x, y) in [
@@ -236,7 +244,7 @@ fn rays_within_a_face_meet_the_box() {
             assert!(boxes_met(&bounds, &ray).iter().all(|&m| m == 0), "{ray:?}");
         }
         let within = ray(vec3(-9.0, 2.0, 3.0), vec3(1.0, zero, zero));
-        assert!(boxes_met(&bounds, &within).iter().all(|&m| m == 1));
+        assert!(boxes_met(&bounds, &within).iter().all(|&m| m == 8));
     }
 }
 
