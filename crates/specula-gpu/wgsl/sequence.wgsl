@@ -7,7 +7,9 @@ import tracer::world::{word};
 
 /// The random numbers of one sample of one pixel.
 struct Sequence {
+    /// The sample within its block in the lower half, the place of the pixel within its block above.
     index: u32,
+    /// Of the block of pixels and of samples.
     seed: u32,
 }
 
@@ -27,9 +29,22 @@ fn sequence_hash(bits: u32) -> u32 {
 ///
 /// Twin: specula-render/src/sampler.rs, Sampler::new.
 fn sequence_of(pixel: vec2u, number: u32, seed: u32) -> Sequence {
-    let block = number >> 16u;
-    let mixed = sequence_hash(pixel.y ^ sequence_hash(seed ^ sequence_hash(block)));
-    return Sequence(number & 0xffffu, sequence_hash(pixel.x ^ mixed));
+    let block = pixel >> vec2u(4u);
+    let mixed = sequence_hash(block.y ^ sequence_hash(seed ^ sequence_hash(number >> 16u)));
+    let index = sequence_place(pixel) | (number & 0xffffu);
+    return Sequence(index, sequence_hash(block.x ^ mixed));
+}
+
+/// The place of a pixel within its block of 16 x 16: bits of `x` and `y` in turn, from bit 31 down.
+///
+/// Twin: specula-render/src/sampler/pixel_blocks.rs, place.
+fn sequence_place(pixel: vec2u) -> u32 {
+    var place = 0u;
+    for (var level = 0u; level < 4u; level += 1u) {
+        place |= ((pixel.x >> level) & 1u) << (31u - 2u * level);
+        place |= ((pixel.y >> level) & 1u) << (30u - 2u * level);
+    }
+    return place;
 }
 
 /// The mix of the crate `sobol_burley`.
@@ -50,6 +65,14 @@ fn sequence_scramble(reversed: u32, key: u32) -> u32 {
     n = n * ((key >> 16u) | 1u);
     n = n ^ (n * 0x05526c56u);
     return n ^ (n * 0x53a22864u);
+}
+
+/// Where the shift of a pixel is in its table: its place within its block after a shuffle.
+///
+/// Twin: specula-render/src/sampler/pixel_blocks.rs, shuffled.
+fn sequence_shuffled(place: u32, key: u32) -> u32 {
+    let power = ((key >> 16u) * 3u) >> 16u;
+    return (power << 8u) | (sequence_scramble(place, sequence_mix(key ^ 0x2c1b3c6du)) >> 24u);
 }
 
 /// The shuffled index, bits reversed, for the sets that are stratified together with the camera's.
@@ -73,7 +96,7 @@ fn sequence_set(s: Sequence, purpose: u32) -> vec4f {
     // The sets of the first vertex are stratified together with the camera's.
     let together = purpose == 1u || purpose == 2u;
     let shuffle = select(seed, sequence_hash(s.seed), together);
-    var rest = sequence_scramble(reverseBits(s.index), sequence_mix(shuffle ^ 0x79c68e4au));
+    var rest = sequence_scramble(reverseBits(s.index & 0xffffu), sequence_mix(shuffle ^ 0x79c68e4au));
     if together {
         rest = sequence_turned(rest);
     }
@@ -85,8 +108,13 @@ fn sequence_set(s: Sequence, purpose: u32) -> vec4f {
         }
         at += 4u;
     }
-    let key = seed * 0x9c8f2d3bu;
-    let keys = vec4u(key) ^ vec4u(0x691e72cau, 0x912f69bau, 0x174f18abu, 0xb40cc1b8u);
+    // What tells the pixels of a block apart.
+    let place = s.index & 0xffff0000u;
+    let shift = word(SEQUENCE_SHIFTS + sequence_shuffled(place, seed));
+    bits = bits ^ vec4u(0u, shift & 0xffffu, shift >> 16u, 0u);
+    let of_block = seed * 0x9c8f2d3bu;
+    let of_pixel = (seed ^ place) * 0x9c8f2d3bu;
+    let keys = vec4u(of_pixel, of_block, of_block, of_pixel) ^ vec4u(0x691e72cau, 0x912f69bau, 0x174f18abu, 0xb40cc1b8u);
     let scrambled = vec4u(
         sequence_scramble(bits.x, sequence_mix(keys.x)),
         sequence_scramble(bits.y, sequence_mix(keys.y)),

@@ -10,9 +10,10 @@
 //!
 //! Each set is the first four dimensions of an Owen-scrambled Sobol sequence, shuffled and
 //! scrambled by itself (Burley 2020, "padding"; by the crate `sobol_burley`), under a hash of the set, the
-//! pixel, the render's seed and the block of 2^16 samples: pixels and sets are decorrelated, and a
+//! block of 16 x 16 pixels, the render's seed and the block of 2^16 samples: blocks and sets are decorrelated, and a
 //! sequence never runs past its length. Dimensions 1 and 2 are Sobol's first two: any 2^k samples from a
-//! multiple of 2^k on have one in each elementary rectangle of area 2^-k.
+//! multiple of 2^k on have one in each elementary rectangle of area 2^-k. They are so, too, for all pixels of a
+//! square together ([`pixel_blocks`]). The other two are scrambled by pixel.
 //!
 //! The sets of the first vertex are joined with the camera's: which part of a fine or bumpy surface a pixel sees
 //! and where the light comes from that it reflects are correlated. Their sequences take the index of the sample
@@ -24,21 +25,25 @@
 //! Lobes that walk between microfacets take random numbers from a hashed stream per vertex. Opacity and the choice
 //! within mixed materials take hashed random numbers, since their count along a path is not bounded.
 
+mod pixel_blocks;
+
 use std::sync::LazyLock;
 
 use macro_rules_attribute::apply;
 use sobol_burley::parts::sobol_rev;
-use sobol_burley::sample_4d;
 use specula_bsdf::math::Stream;
 
 use crate::simd::simd_levels;
 use crate::soa::{Column, Floats};
 use crate::words::Words;
+use pixel_blocks::SHIFTS;
 
 /// The random numbers of one sample of one pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sampler {
+    /// The sample within its block of 2^16 in the lower half, the place of the pixel within its block above.
     index: u32,
+    /// Of the block of pixels and of samples.
     seed: u32,
 }
 
@@ -46,17 +51,17 @@ impl Sampler {
     /// The random numbers of sample `sample` of a pixel.
     #[inline]
     pub(crate) fn new(pixel: [u32; 2], sample: u32, seed: u32) -> Self {
-        let block = sample >> 16;
+        let [x, y] = pixel_blocks::block(pixel);
         Self {
-            index: sample & 0xffff,
-            seed: hash(pixel[0] ^ hash(pixel[1] ^ hash(seed ^ hash(block)))),
+            index: pixel_blocks::place(pixel) | (sample & SAMPLE),
+            seed: hash(x ^ hash(y ^ hash(seed ^ hash(sample >> 16)))),
         }
     }
 
     /// Index of the sample within its block of 2^16.
     #[inline]
     pub(crate) fn index(&self) -> u32 {
-        self.index
+        self.index & SAMPLE
     }
 
     /// Dimensions 1 and 2 for the filter, 0 and 3 for the lens.
@@ -82,7 +87,7 @@ impl Sampler {
     pub(crate) fn time(&self) -> f32 {
         let key = seed_of_set(self.seed, CAMERA);
         let bits = sobol_rev(shuffled(self.index, key), TIME);
-        scrambled(bits, key, TIME_KEY)
+        scrambled(bits, key ^ place(self.index), TIME_KEY)
     }
 
     /// A random number in `[0, 1)` that depends on the sample and on `key`.
@@ -106,13 +111,30 @@ impl Sampler {
     #[inline]
     fn set(&self, set: u32) -> [f32; 4] {
         let key = seed_of_set(self.seed, set);
-        if is_joined_with_camera(set) {
-            let index = turned(shuffled(self.index, seed_of_set(self.seed, CAMERA)));
-            return [0, 1, 2, 3].map(|k| scrambled(sobol(index, k), key, KEYS[k]));
-        }
-        let [x, y, z, w] = sample_4d(self.index, 0, key);
-        [z, x, y, w]
+        let index = if is_joined_with_camera(set) {
+            turned(shuffled(self.index, seed_of_set(self.seed, CAMERA)))
+        } else {
+            shuffled(self.index, key)
+        };
+        let place = place(self.index);
+        let shift = SHIFTS[pixel_blocks::shuffled(place, key) as usize];
+        let bits = [0, 1, 2, 3].map(|k| sobol(index, k));
+        [
+            scrambled(bits[0], key ^ place, KEYS[0]),
+            scrambled(bits[1] ^ (shift & 0xffff), key, KEYS[1]),
+            scrambled(bits[2] ^ (shift >> 16), key, KEYS[2]),
+            scrambled(bits[3], key ^ place, KEYS[3]),
+        ]
     }
+}
+
+/// The bits of an index that tell the sample.
+const SAMPLE: u32 = 0xffff;
+
+/// The bits of an index that tell the pixel.
+#[inline(always)]
+fn place(index: u32) -> u32 {
+    index & !SAMPLE
 }
 
 /// The purpose of a set of dimensions at a vertex.
@@ -165,11 +187,12 @@ fn turned(shuffled: u32) -> u32 {
     bits
 }
 
-/// The index of a sample, shuffled; bits reversed.
+/// The index of a sample within its block, shuffled; bits reversed.
 #[inline(always)]
 fn shuffled(index: u32, key: u32) -> u32 {
     use sobol_burley::parts::{hash, owen_scramble_rev};
-    owen_scramble_rev(index.reverse_bits(), hash(key ^ 0x79c6_8e4a))
+    let sample = index & SAMPLE;
+    owen_scramble_rev(sample.reverse_bits(), hash(key ^ 0x79c6_8e4a))
 }
 
 /// Dimension `k` of a set before it is scrambled, bits reversed.
@@ -202,6 +225,8 @@ pub(crate) struct RandomNumbers<const N: usize> {
     keys: Column<u32, N>,
     /// Shuffled indices, bits reversed.
     shuffled: Column<u32, N>,
+    /// What tells the pixels of a block apart, of the sequence's first two dimensions.
+    shifts: Column<u32, N>,
     /// Of the sequence's third and fourth dimension, before they are scrambled.
     bits: [Column<u32, N>; 2],
     /// By dimension of the set.
@@ -214,6 +239,7 @@ impl<const N: usize> RandomNumbers<N> {
         seeds: Column::of(0),
         keys: Column::of(0),
         shuffled: Column::of(0),
+        shifts: Column::of(0),
         bits: [Column::of(0); 2],
         values: [Floats::of(0.0); 4],
     };
@@ -251,12 +277,14 @@ const TIME_KEY: u32 = 0x5bd1_e995;
 /// What distinguishes the scrambling of the random numbers, as in the crate's `sample_4d`.
 const KEYS: [u32; 4] = [0x691e_72ca, 0x912f_69ba, 0x174f_18ab, 0xb40c_c1b8];
 
-/// The generator matrices for shaders, by bit and dimension.
+/// The generator matrices, by bit and dimension, and the shifts of pixels, for shaders.
 pub(crate) fn flatten(to: &mut Words) {
     to.begin("SOBOL_COLUMNS");
     to.ids(COLUMNS.iter().flatten().copied());
     to.begin("SEQUENCE_TURN");
     to.ids(TURN.map(u32::reverse_bits));
+    to.begin("SEQUENCE_SHIFTS");
+    to.ids(SHIFTS);
 }
 
 /// Burley's shuffled and scrambled sequence, as in the crate's `sample_4d`.
@@ -272,6 +300,7 @@ fn generate<const N: usize>(n: usize, set: u32, random_numbers: &mut RandomNumbe
         seeds,
         keys,
         shuffled: indices_shuffled,
+        shifts,
         bits,
         values,
     } = random_numbers;
@@ -287,6 +316,12 @@ fn generate<const N: usize>(n: usize, set: u32, random_numbers: &mut RandomNumbe
             indices_shuffled[i] = shuffled(indices[i], keys[i]);
         }
     }
+    for i in 0..n {
+        shifts[i] = pixel_blocks::shuffled(place(indices[i]), keys[i]);
+    }
+    for i in 0..n {
+        shifts[i] = SHIFTS[(shifts[i] & 0x3ff) as usize];
+    }
     // One column after the other: these are the loops that become vectors.
     let [b0, b3] = bits;
     for (bit, [c0, _, _, c3]) in COLUMNS.iter().enumerate() {
@@ -299,17 +334,18 @@ fn generate<const N: usize>(n: usize, set: u32, random_numbers: &mut RandomNumbe
     }
     let [v0, v1, v2, v3] = values;
     for i in 0..n {
-        v0[i] = scrambled(b0[i], keys[i], KEYS[0]);
-        v3[i] = scrambled(b3[i], keys[i], KEYS[3]);
+        let key = keys[i] ^ place(indices[i]);
+        v0[i] = scrambled(b0[i], key, KEYS[0]);
+        v3[i] = scrambled(b3[i], key, KEYS[3]);
     }
     for i in 0..n {
         let x = (indices_shuffled[i] & 0xffff_0000).reverse_bits();
-        v1[i] = scrambled(x, keys[i], KEYS[1]);
+        v1[i] = scrambled(x ^ (shifts[i] & 0xffff), keys[i], KEYS[1]);
         let x = x ^ ((x >> 1) & 0x5555);
         let x = x ^ ((x >> 2) & 0x3333);
         let x = x ^ ((x >> 4) & 0x0f0f);
         let x = x ^ ((x >> 8) & 0x00ff);
-        v2[i] = scrambled(x, keys[i], KEYS[2]);
+        v2[i] = scrambled(x ^ (shifts[i] >> 16), keys[i], KEYS[2]);
     }
 }
 
