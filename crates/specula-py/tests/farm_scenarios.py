@@ -174,9 +174,16 @@ def client(cluster: Cluster) -> object:
 
 
 STAND_IN = """#!{python}
-import os, sys
-with open({told!r}, "a") as file:
-    file.writelines(a + "\\n" for a in sys.argv if a.startswith("gpu:"))
+import os, sys, time
+told, both, end = {told!r}, {both!r}, time.monotonic() + 120.0
+if "--device" in sys.argv:
+    with open(told, "a") as file:
+        file.write(sys.argv[sys.argv.index("--device") + 1] + "\\n")
+    # The first part of a node is one sample: nobody takes the rest before both have begun.
+    while os.path.exists(both) and time.monotonic() < end:
+        if {{"cpu", "gpu:0"}} <= set(open(told).read().split()):
+            break
+        time.sleep(0.05)
 given = ["cpu" if a.startswith("gpu:") else a for a in sys.argv[1:]]
 os.execv({own[0]!r}, {own!r} + given)
 """
@@ -186,11 +193,12 @@ def gpu(cluster: Cluster, own: Sequence[str] | None = None) -> object:
     """GPUs take parts where nodes offer them; or processors, too.
 
     A program stands in that renders on the processor what it is to render on a GPU, unless another
-    is given.
+    is given. It waits until both nodes have begun where both are to render.
     """
-    told, program = cluster.folder / "devices.txt", cluster.folder / "stand-in"
-    text = STAND_IN.format(python=sys.executable, told=str(told), own=cluster.own)
-    program.write_text(text)
+    told, both = cluster.folder / "devices.txt", cluster.folder / "both-render"
+    program = cluster.folder / "stand-in"
+    names = {"python": sys.executable, "told": str(told), "both": str(both)}
+    program.write_text(STAND_IN.format(**names, own=cluster.own))
     program.chmod(0o755)
     words = ["--resolution", "32x24", "--spp", "16", "--part-time", "1"]
     found: dict[str, object] = {}
@@ -200,6 +208,8 @@ def gpu(cluster: Cluster, own: Sequence[str] | None = None) -> object:
         cluster.farm(["render", *chosen, *words, *out])
         begun = [e for e in cluster.journal(f"{device}.farm") if e["event"] == "begin"]
         found[device] = len({e["node"] for e in begun})
+        both.touch()
+    both.unlink()
     alone = ["--device", "gpu:0"] if own is not None else []
     cluster.alone([*words[:-2], *alone, "-o", "one-gpu.exr"])
     found["same"] = cluster.same("gpu.exr", "one-gpu.exr")

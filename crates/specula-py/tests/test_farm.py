@@ -82,7 +82,7 @@ def test_client(found: dict[str, Any]) -> None:
 
 def test_gpu(found: dict[str, Any]) -> None:
     """The node that offers a GPU renders; with processors, too, both do."""
-    assert found == {"same": True, "gpu": 1, "mixed": 2, "devices": ["gpu:0"]}
+    assert found == {"same": True, "gpu": 1, "mixed": 2, "devices": ["cpu", "gpu:0"]}
 
 
 def test_children(found: dict[str, Any]) -> None:

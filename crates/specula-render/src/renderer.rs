@@ -316,7 +316,7 @@ fn render_tile(
     let bounds = tile.bounds;
     let mut done = Done::default();
     let mut add = |places: &[(u32, u32)], sizes: &[usize]| {
-        tracer.begin(wavefront, places.iter().copied().map(sample));
+        tracer.begin(wavefront, samplers(places, first, sample));
         if !tracer.follow_until(wavefront, stop) {
             return false;
         }
@@ -355,10 +355,10 @@ fn render_tile(
         }
         return add(&places, &sizes).then_some(done);
     }
-    let mut samples = (0..pixels).flat_map(|i| (count..target).map(move |nth| (i, nth)));
+    let mut all = (0..pixels).flat_map(|i| (count..target).map(move |nth| (i, nth)));
     loop {
         places.clear();
-        places.extend(samples.by_ref().take(Wavefront::SIZE));
+        places.extend(all.by_ref().take(Wavefront::SIZE));
         if places.is_empty() {
             return Some(done);
         }
@@ -366,6 +366,29 @@ fn render_tile(
             return None;
         }
     }
+}
+
+/// Pixels and samplers of samples, of which most are of the same pixel as the one before.
+///
+/// * `places`: of each sample the pixel, by its place in the tile, and the index of the sample there.
+/// * `first`: the index of each pixel's first sample in its sequence.
+/// * `of`: the pixel and sampler of one sample.
+fn samplers(
+    places: &[(u32, u32)],
+    first: u32,
+    of: impl Fn((u32, u32)) -> ([u32; 2], Sampler),
+) -> impl Iterator<Item = ([u32; 2], Sampler)> {
+    let mut last = None;
+    places.iter().map(move |&(i, nth)| {
+        let number = first.wrapping_add(nth);
+        let key = (i, number >> 16);
+        let (pixel, sampler) = match last {
+            Some((same, known)) if same == key => known,
+            _ => of((i, nth)),
+        };
+        last = Some((key, (pixel, sampler)));
+        (pixel, sampler.at(number))
+    })
 }
 
 /// Groups of at most `size` pixels of a tile whose paths share: squares of 4 x 4 pixels are dealt out by

@@ -58,6 +58,15 @@ impl Sampler {
         }
     }
 
+    /// Those of another sample of the same pixel, in the same block of 2^16.
+    #[inline]
+    pub(crate) fn at(self, sample: u32) -> Self {
+        Self {
+            index: place(self.index) | (sample & SAMPLE),
+            ..self
+        }
+    }
+
     /// Index of the sample within its block of 2^16.
     #[inline]
     pub(crate) fn index(&self) -> u32 {
@@ -322,14 +331,18 @@ fn generate<const N: usize>(n: usize, set: u32, random_numbers: &mut RandomNumbe
     for i in 0..n {
         shifts[i] = SHIFTS[(shifts[i] & 0x3ff) as usize];
     }
-    // One column after the other: these are the loops that become vectors.
+    // Four columns after the other: these are the loops that become vectors.
     let [b0, b3] = bits;
-    for (bit, [c0, _, _, c3]) in COLUMNS.iter().enumerate() {
+    for (group, columns) in COLUMNS.as_chunks::<4>().0.iter().enumerate() {
         for i in 0..n {
-            let mask = mask(indices_shuffled[i], bit);
-            let so_far = |b: u32| if bit == 0 { 0 } else { b };
-            b0[i] = so_far(b0[i]) ^ (mask & c0);
-            b3[i] = so_far(b3[i]) ^ (mask & c3);
+            let [mut x0, mut x3] = if group == 0 { [0; 2] } else { [b0[i], b3[i]] };
+            for (bit, [c0, _, _, c3]) in columns.iter().enumerate() {
+                let mask = mask(indices_shuffled[i], 4 * group + bit);
+                x0 ^= mask & c0;
+                x3 ^= mask & c3;
+            }
+            b0[i] = x0;
+            b3[i] = x3;
         }
     }
     let [v0, v1, v2, v3] = values;

@@ -39,13 +39,21 @@ pub(super) fn block(pixel: [u32; 2]) -> [u32; 2] {
 /// The place of a pixel within its block: bits of `x` and `y` in turn, the lowest first, from bit 31 down.
 #[inline(always)]
 pub(super) fn place([x, y]: [u32; 2]) -> u32 {
-    let mut place = 0;
-    for level in 0..LEVELS {
-        place |= ((x >> level) & 1) << (31 - 2 * level);
-        place |= ((y >> level) & 1) << (30 - 2 * level);
-    }
-    place
+    let [x, y] = [x, y].map(|p| APART[(p & 15) as usize]);
+    x | y >> 1
 }
+
+/// Four bits apart, the lowest first, from bit 31 down.
+const APART: [u32; 16] = {
+    let mut apart = [0; 16];
+    let mut i = 0;
+    while i < 4 * apart.len() {
+        let (bits, level) = (i / 4, i % 4);
+        apart[bits] |= ((bits as u32 >> level) & 1) << (31 - 2 * level);
+        i += 1;
+    }
+    apart
+};
 
 /// Where the shift of a pixel is in [`SHIFTS`]: its place after a shuffle.
 ///
