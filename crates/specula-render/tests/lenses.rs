@@ -97,7 +97,7 @@ fn light_at(distance: f64, stop: Option<StopPicture>) -> ([f64; 2], f64) {
     #[expect(clippy::cast_possible_truncation, reason = "rounding is meant")]
     let light = sphere((0.004 * distance) as f32, [0.0, distance, 0.0], m);
     scene.shapes.push(emitting(light, 1.0));
-    let picture = render(&scene, 64, 1, Strategy::Mis);
+    let picture = render(&scene, 256, 1, Strategy::Mis);
     let width = PIXELS as usize;
     let lit = picture.colour.iter().enumerate().map(|(i, c)| {
         let at = |i: usize| i as f64 + 0.5 - 0.5 * f64::from(PIXELS);
