@@ -7,7 +7,7 @@
 
 import tracer::world::{word, number, offset_leave};
 import tracer::sequence::{Sequence, sequence_of, sequence_camera, sequence_scatter, sequence_light};
-import tracer::sequence::{sequence_stream, sequence_hashed};
+import tracer::sequence::{sequence_index, sequence_stream, sequence_hashed};
 import tracer::camera::{camera_ray};
 import tracer::film::{film_developed};
 import tracer::ray::{Ray, Hit};
@@ -401,7 +401,7 @@ fn path_scatter(
         (*state).flags |= PATH_ROUGH;
     }
     if TEXTURES_ARE_FILTERED != 0u {
-        (*state).cone = path_spread((*state).cone, vertex, sampled, s.index);
+        (*state).cone = path_spread((*state).cone, vertex, sampled, sequence_index(s));
     }
     if passes {
         var media = (*state).media;
@@ -453,7 +453,7 @@ fn path_begin(slot: u32, s: Sequence) -> PathState {
     state.throughput = vec3f(1.0);
     state.eta_scale = 1.0;
     state.flags = PATH_STRAIGHT;
-    state.cone = ray_cone_of_sample(begin.cone, s.index);
+    state.cone = ray_cone_of_sample(begin.cone, sequence_index(s));
     path_results[3u * slot] = vec4f(vec3f(0.0), -1.0);
     path_results[3u * slot + 1u] = vec4f(0.0);
     path_results[3u * slot + 2u] = vec4f(vec3f(0.0), begin.weight);

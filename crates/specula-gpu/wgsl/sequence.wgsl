@@ -35,6 +35,13 @@ fn sequence_of(pixel: vec2u, number: u32, seed: u32) -> Sequence {
     return Sequence(index, sequence_hash(block.x ^ mixed));
 }
 
+/// The index of the sample within its block of 2^16.
+///
+/// Twin: specula-render/src/sampler.rs, Sampler::index.
+fn sequence_index(s: Sequence) -> u32 {
+    return s.index & 0xffffu;
+}
+
 /// The place of a pixel within its block of 16 x 16: bits of `x` and `y` in turn, from bit 31 down.
 ///
 /// Twin: specula-render/src/sampler/pixel_blocks.rs, place.
@@ -96,7 +103,7 @@ fn sequence_set(s: Sequence, purpose: u32) -> vec4f {
     // The sets of the first vertex are stratified together with the camera's.
     let together = purpose == 1u || purpose == 2u;
     let shuffle = select(seed, sequence_hash(s.seed), together);
-    var rest = sequence_scramble(reverseBits(s.index & 0xffffu), sequence_mix(shuffle ^ 0x79c68e4au));
+    var rest = sequence_scramble(reverseBits(sequence_index(s)), sequence_mix(shuffle ^ 0x79c68e4au));
     if together {
         rest = sequence_turned(rest);
     }
