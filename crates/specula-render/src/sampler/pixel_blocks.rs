@@ -49,7 +49,9 @@ const APART: [u32; 16] = {
     let mut i = 0;
     while i < 4 * apart.len() {
         let (bits, level) = (i / 4, i % 4);
-        apart[bits] |= ((bits as u32 >> level) & 1) << (31 - 2 * level);
+        if (bits >> level) & 1 == 1 {
+            apart[bits] |= 1 << (31 - 2 * level);
+        }
         i += 1;
     }
     apart
