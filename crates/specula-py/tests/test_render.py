@@ -420,10 +420,9 @@ def test_bounds_end_a_render() -> None:
     picture = render(scene, noise=0.05)
     assert picture.noise <= 0.05
     assert picture.sample_count is not None
-    tiles = (96, 64)
-    picture = render(builtin(), spp=32, adaptive=True, resolution=tiles)
+    picture = render(builtin(), spp=32, adaptive=True, resolution=(96, 64))
     assert np.unique(np.asarray(picture.sample_count)).size > 1
-    again = render(builtin(), spp=32, adaptive=True, resolution=tiles, threads=1)
+    again = render(builtin(), spp=32, adaptive=True, resolution=(96, 64), threads=1)
     assert same(picture, again)
 
 
