@@ -296,7 +296,7 @@ pub(crate) fn flatten(to: &mut Words) {
     to.ids(SHIFTS);
 }
 
-/// Burley's shuffled and scrambled sequence, as in the crate's `sample_4d`.
+/// Burley's shuffled and scrambled sequence, with the shifts of pixels.
 ///
 /// The first dimension's generator matrix is the identity, the second's Pascal's triangle modulo 2, whose
 /// entry at `i`, `j` is 1 where the bits of `i` are among those of `j` (Lucas's theorem): four steps
