@@ -34,7 +34,7 @@ struct AreaSample {
 }
 
 /// The cone in which a sphere is seen from outside.
-/// Twin: specula-render/src/light/area.rs, Cone.
+/// Twin: specula-render/src/light/sphere.rs, Cone.
 struct AreaCone {
     /// To the centre, unit.
     axis: vec3f,
@@ -135,7 +135,7 @@ fn area_sign(at: u32) -> f32 {
 }
 
 /// The cone in which a sphere is seen from `p`.
-/// Twin: specula-render/src/light/area.rs, Cone::new.
+/// Twin: specula-render/src/light/sphere.rs, Cone::new.
 fn area_cone(p: vec3f, centre: vec3f, radius: f32) -> AreaCone {
     let d = centre - p;
     let distance_squared = dot(d, d);
@@ -153,7 +153,7 @@ fn area_cone(p: vec3f, centre: vec3f, radius: f32) -> AreaCone {
 ///
 /// Source: Pharr, Jakob and Humphreys, 4th edition, 6.2.4. Departure: `1 - cos theta` is sampled
 /// instead of `cos theta`, which does not lose digits for spheres far away and needs no second branch.
-/// Twin: specula-render/src/light/area.rs, sample_sphere.
+/// Twin: specula-render/src/light/sphere.rs, Sphere::sample.
 fn area_sample_sphere(at: u32, p: vec3f, u: vec2f) -> AreaSample {
     let centre = vector(at + 1u);
     let radius = number(at + 4u);
@@ -208,7 +208,7 @@ fn area_by_area(
 /// Barycentric weights of the second and third corner, uniform by area and continuous.
 ///
 /// Source: Heitz 2019, A Low-Distortion Map Between Triangle and Square.
-/// Twin: specula-render/src/light/area.rs, uniform_triangle.
+/// Twin: specula-render/src/light/triangle.rs, weights.
 fn area_triangle(u: vec2f) -> vec2f {
     if u.y > u.x {
         return vec2f(0.5 * u.x, u.y - 0.5 * u.x);

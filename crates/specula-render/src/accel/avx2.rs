@@ -11,15 +11,18 @@ use std::arch::x86_64::*;
 use std::mem::MaybeUninit;
 
 use super::block::RayBlock;
-use super::frame::RayFrame;
+use super::frame::{GROUP, RayFrame};
 use super::kernel::{EntryStack, KEY_BITS, Kernel, PacketHits, STACK};
 use super::node::{Child, ChildKind, Lanes, Node8, Packet8, WIDTH};
-use super::traverse::{self, Scene};
-use super::{Hit, Ray, interleaved};
+use super::traverse::{self, ClosestHit, GroupLeaves, Scene};
+use super::{Hit, Ray, interleaved, tree_packs};
 
 /// Proof that the machine has the instructions: only [`Avx2::detect`] makes one.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Avx2(());
+pub(super) struct Avx2 {
+    /// Whether it has those of AVX-512, too, in which the same loops over sixteen lanes are compiled.
+    is_wide: bool,
+}
 
 impl Avx2 {
     pub(super) fn detect() -> Option<Self> {
@@ -28,7 +31,17 @@ impl Avx2 {
             && is_x86_feature_detected!("bmi2")
             && is_x86_feature_detected!("lzcnt")
             && is_x86_feature_detected!("popcnt");
-        all.then_some(Self(()))
+        let is_wide = is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512bw")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl");
+        all.then_some(Self { is_wide })
+    }
+
+    /// The same without the instructions of AVX-512.
+    #[cfg(test)]
+    pub(super) fn narrow(self) -> Self {
+        Self { is_wide: false }
     }
 
     #[inline(always)]
@@ -62,7 +75,14 @@ impl Avx2 {
         hits: &mut [Option<Hit>],
     ) {
         // SAFETY: `self` proves that the machine has the features.
-        unsafe { intersect_block(self, scene, rays, hits) }
+        unsafe {
+            let groups = if self.is_wide {
+                intersect_packs_wide(self, scene, rays, hits)
+            } else {
+                intersect_packs(self, scene, rays, hits)
+            };
+            intersect_block(self, scene, (rays.0, rays.1, groups), hits);
+        }
     }
 
     pub(super) fn occluded_block(
@@ -72,7 +92,14 @@ impl Avx2 {
         occluded: &mut [bool],
     ) {
         // SAFETY: `self` proves that the machine has the features.
-        unsafe { occluded_block(self, scene, rays, occluded) }
+        unsafe {
+            let groups = if self.is_wide {
+                occluded_packs_wide(self, scene, rays, occluded)
+            } else {
+                occluded_packs(self, scene, rays, occluded)
+            };
+            occluded_block(self, scene, (rays.0, rays.1, groups), occluded);
+        }
     }
 }
 
@@ -100,15 +127,68 @@ fn occluded_at(kernel: Avx2, scene: &Scene, ray: &Ray, time: f32) -> bool {
 fn intersect_block(
     kernel: Avx2,
     scene: &Scene,
-    rays: (&RayBlock, usize),
+    rays: (&RayBlock, usize, u32),
     hits: &mut [Option<Hit>],
 ) {
     interleaved::intersect(kernel, scene, rays, hits);
 }
 
 #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-fn occluded_block(kernel: Avx2, scene: &Scene, rays: (&RayBlock, usize), occluded: &mut [bool]) {
+fn occluded_block(
+    kernel: Avx2,
+    scene: &Scene,
+    rays: (&RayBlock, usize, u32),
+    occluded: &mut [bool],
+) {
     interleaved::occluded(kernel, scene, rays, occluded);
+}
+
+/// The packs' entries, for each set of instructions: those of AVX-512 hold sixteen lanes in a register.
+macro_rules! packs {
+    ($features:literal, $intersect:ident, $occluded:ident) => {
+        #[target_feature(enable = $features)]
+        fn $intersect(
+            kernel: Avx2,
+            scene: &Scene,
+            rays: (&RayBlock, usize),
+            hits: &mut [Option<Hit>],
+        ) -> u32 {
+            tree_packs::intersect(kernel, scene, rays, hits)
+        }
+
+        #[target_feature(enable = $features)]
+        fn $occluded(
+            kernel: Avx2,
+            scene: &Scene,
+            rays: (&RayBlock, usize),
+            occluded: &mut [bool],
+        ) -> u32 {
+            tree_packs::occluded(kernel, scene, rays, occluded)
+        }
+    };
+}
+
+packs!(
+    "avx2,bmi1,bmi2,lzcnt,popcnt",
+    intersect_packs,
+    occluded_packs
+);
+packs!(
+    "avx512f,avx512bw,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt",
+    intersect_packs_wide,
+    occluded_packs_wide
+);
+
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+#[inline(never)]
+fn visit_below<const ANY: bool>(
+    kernel: Avx2,
+    leaves: &GroupLeaves<'_>,
+    child: Child,
+    frame: &RayFrame,
+    best: &mut ClosestHit,
+) -> bool {
+    traverse::visit_below::<Avx2, ANY>(kernel, leaves, child, frame, best)
 }
 
 /// A stack whose entries are not initialised until they are written.
@@ -174,6 +254,24 @@ impl Kernel for Avx2 {
         // SAFETY: `self` proves that the machine has the features.
         unsafe { triangles(packet, frame, t_most, hits) }
     }
+
+    #[inline(always)]
+    fn are_at_most(self, a: &[f32; GROUP], b: &[f32; GROUP]) -> u32 {
+        // SAFETY: `self` proves that the machine has the features.
+        unsafe { are_at_most(a, b) }
+    }
+
+    #[inline(always)]
+    fn visit_below<const ANY: bool>(
+        self,
+        leaves: &GroupLeaves<'_>,
+        child: Child,
+        frame: &RayFrame,
+        best: &mut ClosestHit,
+    ) -> bool {
+        // SAFETY: `self` proves that the machine has the features.
+        unsafe { visit_below::<ANY>(self, leaves, child, frame, best) }
+    }
 }
 
 /// All lines of the cache that a value lies in.
@@ -217,6 +315,21 @@ fn load(lanes: &Lanes) -> __m256 {
 fn store(lanes: &mut Lanes, values: __m256) {
     // SAFETY: `Lanes` is 32 bytes long and aligned to 32.
     unsafe { _mm256_store_ps(lanes.0.as_mut_ptr(), values) }
+}
+
+/// See [`Kernel::are_at_most`].
+#[target_feature(enable = "avx2")]
+#[inline]
+fn are_at_most(a: &[f32; GROUP], b: &[f32; GROUP]) -> u32 {
+    let half = |at: usize| {
+        let [a, b] = [a, b].map(|x| {
+            let half: &[f32; WIDTH] = x[at..].first_chunk().unwrap_or(&[0.0; WIDTH]);
+            // SAFETY: the array is 32 bytes long.
+            unsafe { _mm256_loadu_ps(half.as_ptr()) }
+        });
+        _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)).cast_unsigned()
+    };
+    half(0) | half(WIDTH) << WIDTH
 }
 
 /// Where the ray enters and leaves the boxes of children.

@@ -1,4 +1,4 @@
-//! The test of rays against spheres that no transform squeezes, mostly in single precision.
+//! The test of rays against spheres that no transform squeezes: of many rays mostly in single precision, of one in double.
 //!
 //! ```text
 //! l = (o - c) + (b / a) d                a = d . d,  b = -(o - c) . d        the point nearest to the centre
@@ -13,7 +13,7 @@
 use glam::DAffine3;
 use specula_bsdf::Real;
 
-use super::quadric::{PreparedQuadric, QuadricShape};
+use super::quadric::QuadricShape;
 use crate::convert::narrow;
 
 /// By which share squares of the columns of a transform may differ from those of a similarity.
@@ -27,13 +27,41 @@ pub(super) struct Ball {
     radius2: f64,
 }
 
+/// The terms above, in double precision.
+pub(super) struct Approach {
+    a: f64,
+    over_a: f64,
+    b: f64,
+    /// `(o - c)^2 - r^2`.
+    c: f64,
+    /// `r^2 - l^2`; negative where the line misses.
+    pub(super) square: f64,
+}
+
+impl Approach {
+    /// The least positive `t` where the line does not miss; not positive where the sphere lies behind.
+    #[inline(always)]
+    pub(super) fn t(&self) -> f32 {
+        let Self {
+            a,
+            over_a,
+            b,
+            c,
+            square,
+        } = *self;
+        let q = b + (a * square).sqrt().copysign(b);
+        let [s, t] = [c / q, q * over_a];
+        let (near, far) = if s < t { (s, t) } else { (t, s) };
+        f32::of(if near > 0.0 { near } else { far })
+    }
+}
+
 impl Ball {
     /// A quadric, if it is one.
-    pub(super) fn of(quadric: &PreparedQuadric) -> Option<Self> {
-        let QuadricShape::Sphere { radius } = quadric.shape() else {
+    pub(super) fn of(shape: QuadricShape, to_group: &DAffine3) -> Option<Self> {
+        let QuadricShape::Sphere { radius } = shape else {
             return None;
         };
-        let to_group: DAffine3 = quadric.own_space().inverse();
         let [x, y, z] = to_group.matrix3.to_cols_array_2d().map(glam::DVec3::from);
         let square = x.length_squared();
         let is_near = |value: f64, expected: f64| (value - expected).abs() <= TOLERANCE * square;
@@ -47,6 +75,35 @@ impl Ball {
             centre: to_group.translation.to_array(),
             radius2,
         })
+    }
+
+    /// [`Self::t`] in double precision, for one ray; NaN where the ray's line misses.
+    #[inline(always)]
+    pub(super) fn t_in_doubles(&self, o: [f32; 3], d: [f32; 3]) -> f32 {
+        let near = self.approach(o, d);
+        if near.square < 0.0 {
+            return f32::NAN;
+        }
+        near.t()
+    }
+
+    /// How a ray's line passes the centre.
+    #[inline(always)]
+    pub(super) fn approach(&self, o: [f32; 3], d: [f32; 3]) -> Approach {
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let x = [0, 1, 2].map(|k: usize| f64::from(o[k]) - self.centre[k]);
+        let d = d.map(f64::from);
+        let (a, b) = (dot(d, d), -dot(x, d));
+        let over_a = 1.0 / a;
+        let along = b * over_a;
+        let l = [0, 1, 2].map(|k: usize| x[k] + along * d[k]);
+        Approach {
+            a,
+            over_a,
+            b,
+            c: dot(x, x) - self.radius2,
+            square: self.radius2 - dot(l, l),
+        }
     }
 
     /// The least `t > 0` at which a ray hits it; not above 0 where it misses.

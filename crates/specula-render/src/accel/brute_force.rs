@@ -152,7 +152,7 @@ impl SmallScene {
             triangles,
         } = Solids::of(&triangles);
         let (balls, quadrics): (Vec<_>, Vec<_>) =
-            (quadrics.into_iter()).partition(|q| Ball::of(q).is_some());
+            (quadrics.into_iter()).partition(|q| q.ball().is_some());
         let time = rectangles.len()
             + BOX * boxes.len()
             + TRIANGLE * triangles.len()
@@ -184,7 +184,7 @@ impl SmallScene {
                 .chain(quadrics.iter().map(|q| q.primitive))
                 .chain(patches.iter().map(|p| p.primitive))
                 .collect(),
-            balls: balls.iter().filter_map(Ball::of).collect(),
+            balls: balls.iter().filter_map(PreparedQuadric::ball).collect(),
             quadrics,
             patches,
             places,

@@ -64,11 +64,11 @@ pub(super) struct FrameGroup<'a> {
     pub(super) rays: &'a RayBlock,
     first: usize,
     /// 1 over the directions.
-    reciprocal: [[f32; GROUP]; 3],
+    pub(super) reciprocal: [[f32; GROUP]; 3],
     /// The first two factors of the shear.
-    shear: [[f32; GROUP]; 2],
+    pub(super) shear: [[f32; GROUP]; 2],
     /// In which the directions are greatest; [`NO_AXIS`]: the ray cannot hit.
-    axis: [u8; GROUP],
+    pub(super) axis: [u8; GROUP],
 }
 
 /// Rays of a group.
@@ -118,6 +118,28 @@ impl<'a> FrameGroup<'a> {
             group.shear[1][k] = pick(z, x, y) / greatest;
         }
         group
+    }
+
+    /// Whether all rays can hit, lead to the same sides, and have the greatest component of their directions along the same
+    /// axis.
+    #[inline(always)]
+    pub(super) fn is_coherent(&self) -> bool {
+        let d = &self.rays.direction;
+        let at = |c: &[f32; BLOCK], k: usize| c[(self.first + k) % BLOCK].to_bits();
+        let mut apart = u32::from(self.axis[0] == NO_AXIS);
+        for k in 1..GROUP {
+            let turned = (at(&d.x, k) ^ at(&d.x, 0))
+                | (at(&d.y, k) ^ at(&d.y, 0))
+                | (at(&d.z, k) ^ at(&d.z, 0));
+            apart |= (turned >> 31) | u32::from(self.axis[k] != self.axis[0]);
+        }
+        apart == 0
+    }
+
+    /// Which rays can hit, as bits.
+    #[inline(always)]
+    pub(super) fn can_hit(&self) -> u32 {
+        (0..GROUP).fold(0, |set, k| set | (u32::from(self.axis[k] != NO_AXIS) << k))
     }
 
     /// The frame of a ray of the group; `None` where it cannot hit.

@@ -17,23 +17,25 @@ const RAYS: usize = 16;
 /// Bytes of a tree that the first levels of caches are assumed to hold. Measured likewise.
 const IN_CACHE: usize = 4 << 20;
 
-/// [`super::traverse::intersect`] of each ray; `hits` are as many, and `None`.
+/// [`super::traverse::intersect`] of each ray; `hits` are as many.
+///
+/// * `rays`: a block of them, how many they are, and as bits the groups of [`GROUP`] that are left out.
 #[inline(always)]
 pub(super) fn intersect<K: Kernel>(
     kernel: K,
     scene: &Scene,
-    rays: (&RayBlock, usize),
+    rays: (&RayBlock, usize, u32),
     hits: &mut [Option<Hit>],
 ) {
     cast::<K, false>(kernel, scene, rays, |ray, best| hits[ray] = best.hit());
 }
 
-/// [`super::traverse::occluded`] of each ray; `occluded` are as many, and `false`.
+/// [`super::traverse::occluded`] of each ray, likewise.
 #[inline(always)]
 pub(super) fn occluded<K: Kernel>(
     kernel: K,
     scene: &Scene,
-    rays: (&RayBlock, usize),
+    rays: (&RayBlock, usize, u32),
     occluded: &mut [bool],
 ) {
     cast::<K, true>(kernel, scene, rays, |ray, best| {
@@ -48,7 +50,7 @@ pub(super) fn occluded<K: Kernel>(
 fn cast<K: Kernel, const ANY: bool>(
     kernel: K,
     scene: &Scene,
-    (rays, n): (&RayBlock, usize),
+    (rays, n, taken): (&RayBlock, usize, u32),
     mut done: impl FnMut(usize, &ClosestHit),
 ) {
     let Some(root) = scene.root else { return };
@@ -57,9 +59,12 @@ fn cast<K: Kernel, const ANY: bool>(
         && gains(scene)
     {
         let leaves = GroupLeaves { scene, instance };
-        return interleave::<K, ANY>(kernel, (root, &leaves), (rays, n), done);
+        return interleave::<K, ANY>(kernel, (root, &leaves), (rays, n, taken), done);
     }
-    for first in (0..n).step_by(GROUP) {
+    for (group, first) in (0..n).step_by(GROUP).enumerate() {
+        if taken >> group & 1 == 1 {
+            continue;
+        }
         let frames = FrameGroup::new(rays, first);
         for index in first..n.min(first + GROUP) {
             if let Some(frame) = frames.get(index) {
@@ -93,13 +98,14 @@ struct RayInFlight<S> {
 fn interleave<K: Kernel, const ANY: bool>(
     kernel: K,
     (root, leaves): (Child, &GroupLeaves<'_>),
-    (rays, n): (&RayBlock, usize),
+    (rays, n, taken): (&RayBlock, usize, u32),
     mut done: impl FnMut(usize, &ClosestHit),
 ) {
     let mut waiting = Waiting {
         frames: FrameGroup::new(rays, 0),
         next: 0,
         count: n,
+        taken,
     };
     // Not as an array of constants: that would be written whole, with its stacks.
     let mut in_flight: [Option<RayInFlight<K::Stack>>; RAYS] = std::array::from_fn(|_| None);
@@ -170,6 +176,8 @@ struct Waiting<'a> {
     frames: FrameGroup<'a>,
     next: usize,
     count: usize,
+    /// Groups that are left out, as bits.
+    taken: u32,
 }
 
 impl Waiting<'_> {
@@ -178,6 +186,10 @@ impl Waiting<'_> {
     fn next(&mut self) -> Option<(usize, RayFrame)> {
         while self.next < self.count {
             let index = self.next;
+            if self.taken >> (index / GROUP) & 1 == 1 {
+                self.next += GROUP;
+                continue;
+            }
             if index > 0 && index.is_multiple_of(GROUP) {
                 self.frames = FrameGroup::new(self.frames.rays, index);
             }

@@ -1,8 +1,8 @@
 //! The kernels of the traversal, for one node or packet: what depends on the instruction set, and the portable one.
 
-use super::frame::RayFrame;
+use super::frame::{GROUP, RayFrame};
 use super::node::{Child, Lanes, Node8, Packet8, WIDTH};
-use super::traverse::Scene;
+use super::traverse::{self, ClosestHit, GroupLeaves, Scene};
 use super::triangle::{self, max, min};
 
 /// Most levels of 8-wide nodes that a tree may have; deeper ones are rebuilt balanced.
@@ -67,6 +67,16 @@ pub(super) trait Kernel: Copy {
         t_most: f32,
         hits: &mut PacketHits,
     ) -> u32;
+    /// In which lanes `a` is at most `b`, as bits.
+    fn are_at_most(self, a: &[f32; GROUP], b: &[f32; GROUP]) -> u32;
+    /// [`traverse::visit_below`], compiled by itself.
+    fn visit_below<const ANY: bool>(
+        self,
+        leaves: &GroupLeaves<'_>,
+        child: Child,
+        frame: &RayFrame,
+        best: &mut ClosestHit,
+    ) -> bool;
 }
 
 /// Plain Rust over arrays.
@@ -182,6 +192,24 @@ impl Kernel for Portable {
             (hits.t.0[lane], hits.u.0[lane], hits.v.0[lane]) = (t, u, v);
         }
         mask & bits(|lane| (hits.t.0[lane] > 0.0) & (hits.t.0[lane] <= t_most))
+    }
+
+    #[inline(always)]
+    fn are_at_most(self, a: &[f32; GROUP], b: &[f32; GROUP]) -> u32 {
+        (0..GROUP).fold(0, |mask, lane| {
+            mask | (u32::from(a[lane] <= b[lane]) << lane)
+        })
+    }
+
+    #[inline(never)]
+    fn visit_below<const ANY: bool>(
+        self,
+        leaves: &GroupLeaves<'_>,
+        child: Child,
+        frame: &RayFrame,
+        best: &mut ClosestHit,
+    ) -> bool {
+        traverse::visit_below::<Self, ANY>(self, leaves, child, frame, best)
     }
 }
 

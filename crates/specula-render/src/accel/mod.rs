@@ -16,8 +16,8 @@
 //!   of traversal; in small scenes, among primitives that are tested alike.
 //! - **No leaks.** A ray from inside a closed mesh hits it: `triangle.rs`, `patch.rs`, `rectangle.rs` and
 //!   `parallelepiped.rs` have the arguments.
-//! - **A batch is its rays one by one.** Batches in small scenes (`brute_force.rs`) and of incoherent rays in large
-//!   trees (`interleaved.rs`) are computed otherwise, with the same hits bit for bit.
+//! - **A batch is its rays one by one.** Batches in small scenes (`brute_force.rs`), of coherent rays (`tree_packs.rs`) and
+//!   of incoherent ones in large trees (`interleaved.rs`) are computed otherwise, with the same hits bit for bit.
 //! - **It cannot fail.** Rays that are not finite hit nothing; indices are checked at build.
 
 mod ball;
@@ -47,6 +47,7 @@ mod predicted;
 mod quadric;
 mod rectangle;
 mod traverse;
+mod tree_packs;
 mod triangle;
 
 #[cfg(target_arch = "x86_64")]
@@ -321,7 +322,10 @@ impl Accel {
         hits.resize(first + n, None);
         let (scene, hits) = (&self.scene, &mut hits[first..]);
         match self.kernel {
-            KernelChoice::Portable => interleaved::intersect(Portable, scene, (rays, n), hits),
+            KernelChoice::Portable => {
+                let groups = tree_packs::intersect(Portable, scene, (rays, n), hits);
+                interleaved::intersect(Portable, scene, (rays, n, groups), hits);
+            }
             #[cfg(target_arch = "x86_64")]
             KernelChoice::Avx2(kernel) => kernel.intersect_block(scene, (rays, n), hits),
         }
@@ -356,7 +360,10 @@ impl Accel {
         occluded.resize(first + n, false);
         let (scene, occluded) = (&self.scene, &mut occluded[first..]);
         match self.kernel {
-            KernelChoice::Portable => interleaved::occluded(Portable, scene, (rays, n), occluded),
+            KernelChoice::Portable => {
+                let groups = tree_packs::occluded(Portable, scene, (rays, n), occluded);
+                interleaved::occluded(Portable, scene, (rays, n, groups), occluded);
+            }
             #[cfg(target_arch = "x86_64")]
             KernelChoice::Avx2(kernel) => kernel.occluded_block(scene, (rays, n), occluded),
         }

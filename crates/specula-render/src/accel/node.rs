@@ -142,6 +142,20 @@ impl Packet8 {
         self.primitives[lane] = primitive;
     }
 
+    /// The lanes that hold triangles, which come first.
+    #[inline(always)]
+    pub(super) fn occupied_lanes(&self) -> impl Iterator<Item = usize> + use<> {
+        let [a, b, _] = &self.vertices;
+        let mut apart = 0_u32;
+        for lane in 0..WIDTH {
+            let is_point = (a[0].0[lane] == b[0].0[lane])
+                & (a[1].0[lane] == b[1].0[lane])
+                & (a[2].0[lane] == b[2].0[lane]);
+            apart |= u32::from(!is_point) << lane;
+        }
+        0..(u32::BITS - apart.leading_zeros()) as usize % (WIDTH + 1)
+    }
+
     /// The triangles in occupied lanes, with their indices.
     pub(super) fn occupied(&self) -> impl Iterator<Item = (u32, [[f32; 3]; 3])> {
         let corners = |lane: usize| {

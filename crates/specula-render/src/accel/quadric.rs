@@ -4,6 +4,7 @@ use glam::{DAffine3, DMat4, DVec3};
 use specula_bsdf::{Real, Vec3};
 use specula_scene::scene::QuadricPart;
 
+use super::ball::Ball;
 use super::input::invertible;
 use super::{Bounds, Ray};
 
@@ -112,6 +113,8 @@ fn bounds_of_part(part: &QuadricPart, to_group: &DAffine3) -> Bounds {
 /// A quadric, ready to be intersected.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PreparedQuadric {
+    /// Set where it is one.
+    ball: Option<Ball>,
     shape: QuadricShape,
     to_object: DAffine3,
     /// Index within the group.
@@ -121,9 +124,11 @@ pub(super) struct PreparedQuadric {
 impl PreparedQuadric {
     /// `quadric` must be regular.
     pub(super) fn new(quadric: &Quadric, primitive: u32) -> Self {
+        let to_group = DAffine3::from_mat4(quadric.to_group);
         Self {
+            ball: Ball::of(quadric.shape, &to_group),
             shape: quadric.shape,
-            to_object: DAffine3::from_mat4(quadric.to_group).inverse(),
+            to_object: to_group.inverse(),
             primitive,
         }
     }
@@ -131,6 +136,15 @@ impl PreparedQuadric {
     /// The least `t > 0` at which the ray hits the surface; NaN or not positive where it misses.
     #[inline(never)]
     pub(super) fn t(&self, ray: &Ray) -> f32 {
+        if let Some(ball) = &self.ball {
+            return ball.t_in_doubles(ray.origin.to_array(), ray.direction.to_array());
+        }
+        self.t_in_own_space(ray)
+    }
+
+    /// [`Self::t`] whatever the shape.
+    #[inline(always)]
+    pub(super) fn t_in_own_space(&self, ray: &Ray) -> f32 {
         let wide = |v: Vec3<f32>| v.to_array().map(f64::from);
         let (o, d) = self.enter(wide(ray.origin), wide(ray.direction));
         match self.shape {
@@ -145,6 +159,11 @@ impl PreparedQuadric {
                 }
             }
         }
+    }
+
+    /// It as a sphere that no transform squeezes, if it is one.
+    pub(super) fn ball(&self) -> Option<Ball> {
+        self.ball
     }
 
     /// Affine map from the group's space to its own.

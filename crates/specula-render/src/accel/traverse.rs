@@ -1,5 +1,6 @@
 //! Traversal of the trees by a ray, near children first; generic over the kernel.
 
+use super::ball::Ball;
 use super::curve::{CurvePart, CurveSegment};
 use super::frame::{RayFrame, SLACK};
 use super::instances::{self, Placement};
@@ -50,6 +51,16 @@ impl ClosestHit {
             },
             t_cull: t_max * SLACK,
             is_hit: false,
+        }
+    }
+
+    /// What was the closest hit before; where there is none yet, of the index 0 and at the ray's end.
+    #[inline(always)]
+    pub(super) fn of(hit: Hit, is_hit: bool) -> Self {
+        Self {
+            t_cull: hit.t * SLACK,
+            hit,
+            is_hit,
         }
     }
 
@@ -112,6 +123,18 @@ pub(super) fn cast_frame<K: Kernel, const ANY: bool>(
         traverse_tree::<K, _, ANY>(kernel, scene, root, frame, &leaves, &mut best);
     }
     best
+}
+
+/// Traverses what lies below a child and updates `best`; returns whether it changed.
+#[inline(always)]
+pub(super) fn visit_below<K: Kernel, const ANY: bool>(
+    kernel: K,
+    leaves: &GroupLeaves<'_>,
+    child: Child,
+    frame: &RayFrame,
+    best: &mut ClosestHit,
+) -> bool {
+    traverse_tree::<K, _, ANY>(kernel, leaves.scene, child, frame, leaves, best)
 }
 
 /// [`intersect`] at a time, where instances move.
@@ -235,6 +258,16 @@ pub(super) fn child_of(entry: u64) -> Child {
 }
 
 impl Scene {
+    /// A child's sphere and its primitive, where that is one which no transform squeezes.
+    #[inline(always)]
+    pub(super) fn ball(&self, child: Child) -> Option<(Ball, u32)> {
+        if child.kind() != ChildKind::Quadric {
+            return None;
+        }
+        let quadric = &self.quadrics[child.index()];
+        Some((quadric.ball()?, quadric.primitive))
+    }
+
     /// The hit of a patch or a part of a curve, with its primitive.
     ///
     /// Cold, so that the traversal keeps its registers for triangles.

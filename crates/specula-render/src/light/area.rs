@@ -2,15 +2,17 @@
 
 use glam::{DMat3, DMat4};
 use specula_bsdf::math::vec3;
-use specula_bsdf::{Frame, Real, Vec3};
+use specula_bsdf::{Real, Vec3};
 
 use super::cone::EmissionCone;
-use super::parallelogram::{Parallelogram, ParallelogramSample};
+use super::parallelogram::Parallelogram;
+use super::sphere::Sphere;
+use super::triangle::{self, Triangle};
 use crate::accel::{Bounds, QuadricShape};
 use crate::codes;
 use crate::convert::{Affine, abs, narrow, normal_matrix};
 use crate::disk::concentric_disk;
-use crate::geometry::{normal_of, unit_or};
+use crate::geometry::unit_or;
 use crate::offset::coupled;
 use crate::words::Words;
 
@@ -23,7 +25,7 @@ pub(crate) struct AreaSample {
     pub(crate) normal: Vec3<f32>,
     /// From the reference point, unit.
     pub(crate) wi: Vec3<f32>,
-    /// In 1/sr.
+    /// In 1/sr; 0 where the point is of no use.
     pub(crate) pdf: f32,
 }
 
@@ -31,20 +33,11 @@ pub(crate) struct AreaSample {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Area {
     /// Sampled uniformly by area.
-    Triangle {
-        corner: Vec3<f32>,
-        edges: [Vec3<f32>; 2],
-        normal: Vec3<f32>,
-        area: f32,
-    },
+    Triangle(Triangle),
     /// Rectangles are sampled uniformly by solid angle.
     Parallelogram(Parallelogram),
     /// Sampled uniformly within the cone that it is seen in; by area from inside.
-    Sphere {
-        centre: Vec3<f32>,
-        radius: f32,
-        flipped: bool,
-    },
+    Sphere(Sphere),
     /// Sampled uniformly by area.
     Disk {
         centre: Vec3<f32>,
@@ -68,15 +61,8 @@ pub(crate) enum Area {
 
 impl Area {
     /// A triangle by its corners, in winding order about the outside.
-    pub(crate) fn triangle([a, b, c]: [Vec3<f32>; 3]) -> Self {
-        let edges = [b - a, c - a];
-        let cross = edges[0].cast::<f64>().cross(edges[1].cast());
-        Self::Triangle {
-            corner: a,
-            edges,
-            normal: normal_of(edges[0], edges[1]),
-            area: narrow(0.5 * cross.length()),
-        }
+    pub(crate) fn triangle(corners: [Vec3<f32>; 3]) -> Self {
+        Self::Triangle(Triangle::new(corners))
     }
 
     /// A parallelogram by a corner and its neighbours, in winding order about the outside.
@@ -95,11 +81,11 @@ impl Area {
                 let round =
                     gram.abs_diff_eq(DMat3::IDENTITY * (scale * scale), 1e-6 * scale * scale);
                 if round {
-                    return Self::Sphere {
+                    return Self::Sphere(Sphere {
                         centre,
                         radius: narrow(radius * scale),
-                        flipped,
-                    };
+                        side: if flipped { -1.0 } else { 1.0 },
+                    });
                 }
                 let forward = *to_world * DMat4::from_scale(glam::DVec3::splat(radius));
                 let cofactor =
@@ -132,10 +118,10 @@ impl Area {
     /// Its kind, one of the codes.
     pub(super) fn kind(&self) -> u32 {
         match self {
-            Self::Triangle { .. } => codes::AREA_TRIANGLE,
+            Self::Triangle(_) => codes::AREA_TRIANGLE,
             Self::Disk { .. } => codes::AREA_DISK,
             Self::Parallelogram(_) => codes::AREA_PARALLELOGRAM,
-            Self::Sphere { .. } => codes::AREA_SPHERE,
+            Self::Sphere(_) => codes::AREA_SPHERE,
             Self::Ellipsoid { .. } => codes::AREA_ELLIPSOID,
         }
     }
@@ -151,12 +137,12 @@ impl Area {
             to.number(area);
         };
         match *self {
-            Self::Triangle {
+            Self::Triangle(Triangle {
                 corner,
                 edges,
                 normal,
                 area,
-            } => flat(corner, edges, normal, area),
+            }) => flat(corner, edges, normal, area),
             Self::Disk {
                 centre,
                 axes,
@@ -164,14 +150,14 @@ impl Area {
                 area,
             } => flat(centre, axes, normal, area),
             Self::Parallelogram(light) => light.flatten(to),
-            Self::Sphere {
+            Self::Sphere(Sphere {
                 centre,
                 radius,
-                flipped,
-            } => {
+                side,
+            }) => {
                 to.vector(centre);
                 to.number(radius);
-                to.flag(flipped);
+                to.flag(side < 0.0);
             }
             Self::Ellipsoid {
                 forward,
@@ -191,20 +177,20 @@ impl Area {
     /// Surface area.
     pub(crate) fn area(&self) -> f32 {
         match *self {
-            Self::Triangle { area, .. }
+            Self::Triangle(Triangle { area, .. })
             | Self::Parallelogram(Parallelogram { area, .. })
             | Self::Disk { area, .. }
             | Self::Ellipsoid { area, .. } => area,
-            Self::Sphere { radius, .. } => 4.0 * core::f32::consts::PI * radius * radius,
+            Self::Sphere(sphere) => sphere.area(),
         }
     }
 
     /// Area of the shadow along the normal; of a closed surface, the mean over directions.
     pub(crate) fn projected_area(&self) -> f32 {
         match self {
-            Self::Triangle { .. } | Self::Parallelogram(_) | Self::Disk { .. } => self.area(),
+            Self::Triangle(_) | Self::Parallelogram(_) | Self::Disk { .. } => self.area(),
             // Cauchy's formula for convex bodies.
-            Self::Sphere { .. } | Self::Ellipsoid { .. } => 0.25 * self.area(),
+            Self::Sphere(_) | Self::Ellipsoid { .. } => 0.25 * self.area(),
         }
     }
 
@@ -219,14 +205,14 @@ impl Area {
             points.fold(Bounds::EMPTY, |b, p| b.union(&point(p)))
         };
         let (centre, reach) = match *self {
-            Self::Triangle { corner, edges, .. } => {
+            Self::Triangle(Triangle { corner, edges, .. }) => {
                 return around(&[corner, corner + edges[0], corner + edges[1]]);
             }
             Self::Parallelogram(Parallelogram { corner, edges, .. }) => {
                 let [a, b] = edges;
                 return around(&[corner, corner + a, corner + b, corner + a + b]);
             }
-            Self::Sphere { centre, radius, .. } => (centre, Vec3::splat(radius)),
+            Self::Sphere(Sphere { centre, radius, .. }) => (centre, Vec3::splat(radius)),
             Self::Disk { centre, axes, .. } => (centre, root_of_squares(&axes)),
             Self::Ellipsoid { forward, .. } => {
                 (forward.translation, root_of_squares(&forward.columns))
@@ -241,10 +227,10 @@ impl Area {
     /// Bound on the directions that it sends light to.
     pub(super) fn cone(&self, two_sided: bool) -> EmissionCone {
         match *self {
-            Self::Triangle { normal, .. }
+            Self::Triangle(Triangle { normal, .. })
             | Self::Parallelogram(Parallelogram { normal, .. })
             | Self::Disk { normal, .. } => EmissionCone::flat(normal, two_sided),
-            Self::Sphere { .. } | Self::Ellipsoid { .. } => EmissionCone::SPHERE,
+            Self::Sphere(_) | Self::Ellipsoid { .. } => EmissionCone::SPHERE,
         }
     }
 
@@ -252,14 +238,11 @@ impl Area {
     /// except on spheres and rectangles.
     pub(super) fn point(&self, u: [f32; 2]) -> Vec3<f32> {
         match *self {
-            Self::Triangle { corner, edges, .. } => {
-                let b = uniform_triangle(u);
-                corner + edges[0] * b[0] + edges[1] * b[1]
-            }
+            Self::Triangle(triangle) => triangle.point(u),
             Self::Parallelogram(Parallelogram { corner, edges, .. }) => {
                 corner + edges[0] * u[0] + edges[1] * u[1]
             }
-            Self::Sphere { centre, radius, .. } => {
+            Self::Sphere(Sphere { centre, radius, .. }) => {
                 centre + specula_bsdf::math::warp::uniform_sphere(u) * radius
             }
             Self::Disk { centre, axes, .. } => {
@@ -275,7 +258,7 @@ impl Area {
     /// Barycentric weights of the second and third corner of the point of a triangle that `u` leads
     /// to.
     pub(super) fn weights(u: [f32; 2]) -> [f32; 2] {
-        uniform_triangle(u)
+        triangle::weights(u)
     }
 
     /// The inverse of [`Area::weights`].
@@ -292,33 +275,10 @@ impl Area {
     /// * `u`: uniform in `[0, 1)^2`.
     #[inline]
     pub(crate) fn sample(&self, p: Vec3<f32>, u: [f32; 2]) -> Option<AreaSample> {
-        match *self {
-            Self::Triangle {
-                corner,
-                edges,
-                normal,
-                area,
-            } => {
-                let b = uniform_triangle(u);
-                let point = corner + edges[0] * b[0] + edges[1] * b[1];
-                let reach = abs(corner) + abs(edges[0]) + abs(edges[1]);
-                by_area(p, point, reach, normal, 1.0 / area)
-            }
-            Self::Parallelogram(light) => {
-                let ParallelogramSample { point, wi, pdf } = light.sample(p, u);
-                (pdf > 0.0).then_some(AreaSample {
-                    point,
-                    error: light.error,
-                    normal: light.normal,
-                    wi,
-                    pdf,
-                })
-            }
-            Self::Sphere {
-                centre,
-                radius,
-                flipped,
-            } => sample_sphere(p, centre, radius, flipped, u),
+        let sample = match *self {
+            Self::Triangle(triangle) => triangle.sample(p, u),
+            Self::Parallelogram(light) => light.area_sample(p, u),
+            Self::Sphere(sphere) => sphere.sample(p, u),
             Self::Disk {
                 centre,
                 axes,
@@ -343,7 +303,8 @@ impl Area {
                 let normal = if flipped { -normal } else { normal };
                 by_area(p, forward.point(d), forward.magnitude(d), normal, per_area)
             }
-        }
+        };
+        (sample.pdf > 0.0).then_some(sample)
     }
 
     /// Density in 1/sr with which [`Area::sample`] samples the direction from `p` to the point `q` of
@@ -353,11 +314,11 @@ impl Area {
     #[inline]
     pub(crate) fn pdf(&self, p: Vec3<f32>, q: Vec3<f32>, normal: Vec3<f32>) -> f32 {
         let per_area = match *self {
-            Self::Triangle { area, .. } | Self::Disk { area, .. } => 1.0 / area,
+            Self::Triangle(Triangle { area, .. }) | Self::Disk { area, .. } => 1.0 / area,
             Self::Parallelogram(light) => return finite_or_zero(light.pdf(p, q)),
-            Self::Sphere { centre, radius, .. } => match Cone::new(p, centre, radius) {
-                Some(cone) => return cone.pdf(),
-                None => 1.0 / self.area(),
+            Self::Sphere(sphere) => match sphere.pdf(p) {
+                Some(pdf) => return pdf,
+                None => 1.0 / sphere.area(),
             },
             Self::Ellipsoid {
                 backward, cofactor, ..
@@ -392,116 +353,34 @@ fn ellipsoid_area(cofactor: &DMat3) -> f32 {
     narrow(sum / f64::from(n_z * n_phi) * 4.0 * core::f64::consts::PI)
 }
 
-/// The cone in which a sphere is seen from outside.
-struct Cone {
-    /// To the centre, unit.
-    axis: Vec3<f32>,
-    distance: f32,
-    sin2_max: f32,
-    /// `1 - cos` of the half angle, without cancellation.
-    one_minus_cos: f32,
-}
-
-impl Cone {
-    /// `None` from inside or on the sphere.
-    #[inline]
-    fn new(p: Vec3<f32>, centre: Vec3<f32>, radius: f32) -> Option<Self> {
-        let d = centre - p;
-        let distance_squared = d.length_squared();
-        // A margin: next to the surface the cone is a hemisphere and rounding decides.
-        if distance_squared <= radius * radius * 1.0001 {
-            return None;
-        }
-        let sin2_max = radius * radius / distance_squared;
-        let distance = distance_squared.sqrt();
-        Some(Self {
-            axis: d * (1.0 / distance),
-            distance,
-            sin2_max,
-            one_minus_cos: sin2_max / (1.0 + (1.0 - sin2_max).sqrt()),
-        })
-    }
-
-    #[inline]
-    fn pdf(&self) -> f32 {
-        0.5 * f32::INV_PI / self.one_minus_cos
-    }
-}
-
-/// Source: Pharr, Jakob and Humphreys, 4th edition, 6.2.4. Departure: `1 - cos theta` is sampled
-/// instead of `cos theta`, which does not lose digits for spheres far away and needs no second branch.
-#[inline]
-fn sample_sphere(
-    p: Vec3<f32>,
-    centre: Vec3<f32>,
-    radius: f32,
-    flipped: bool,
-    u: [f32; 2],
-) -> Option<AreaSample> {
-    let sign = if flipped { -1.0 } else { 1.0 };
-    let reach = abs(centre) + Vec3::splat(radius);
-    let Some(cone) = Cone::new(p, centre, radius) else {
-        let n = specula_bsdf::math::warp::uniform_sphere(u);
-        let per_area = 0.25 * f32::INV_PI / (radius * radius);
-        return by_area(p, centre + n * radius, reach, n * sign, per_area);
-    };
-    let t = u[0] * cone.one_minus_cos;
-    let sin2 = t * (2.0 - t);
-    let phi = u[1] * core::f32::consts::TAU;
-    let sin = sin2.sqrt();
-    let frame = Frame::from_normal(cone.axis);
-    let wi = frame.to_world(vec3(sin * phi.cos(), sin * phi.sin(), 1.0 - t));
-    // Depth of the near intersection below the plane through the centre.
-    let height = radius * (1.0 - sin2 / cone.sin2_max).max(0.0).sqrt();
-    let along = cone.distance * (1.0 - t) - height;
-    let normal = unit_or(p + wi * along - centre, -wi);
-    Some(AreaSample {
-        point: centre + normal * radius,
-        error: coupled(reach),
-        normal: normal * sign,
-        wi,
-        pdf: cone.pdf(),
-    })
-}
-
-#[inline]
-fn by_area(
+/// The sample of a point that was sampled by area, as seen from `p`.
+///
+/// * `per_area`: density over the area.
+#[inline(always)]
+pub(super) fn by_area(
     p: Vec3<f32>,
     point: Vec3<f32>,
     reach: Vec3<f32>,
     normal: Vec3<f32>,
     per_area: f32,
-) -> Option<AreaSample> {
+) -> AreaSample {
     let d = point - p;
     let distance_squared = d.length_squared();
     let wi = d * (1.0 / distance_squared.sqrt());
     let pdf = per_area * distance_squared / normal.dot(wi).abs();
-    (pdf > 0.0 && pdf.is_finite() && wi.is_finite()).then_some(AreaSample {
+    let usable = (pdf > 0.0) & (pdf < f32::INFINITY) & (wi.length_squared() > 0.5);
+    AreaSample {
         point,
         error: coupled(reach),
         normal,
         wi,
-        pdf,
-    })
+        pdf: if usable { pdf } else { 0.0 },
+    }
 }
 
 #[inline]
 fn finite_or_zero(x: f32) -> f32 {
     if x.is_finite() { x } else { 0.0 }
-}
-
-/// Barycentric weights of the second and third corner, uniform by area and continuous.
-///
-/// Source: Heitz 2019, A Low-Distortion Map Between Triangle and Square.
-#[inline]
-fn uniform_triangle([u, v]: [f32; 2]) -> [f32; 2] {
-    if v > u {
-        let x = 0.5 * u;
-        [x, v - x]
-    } else {
-        let y = 0.5 * v;
-        [u - y, y]
-    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! Light samples of many vertices at once: choices (`choices`), then points of parallelograms and directions to the
-//! environment in queues of 64. Other lights are sampled vertex by vertex.
+//! Light samples of many vertices at once: choices (`choices`), then points of parallelograms, spheres and triangles and
+//! directions to the environment in queues of 64. Other lights are sampled vertex by vertex.
 
 #![allow(
     clippy::needless_range_loop,
@@ -14,6 +14,7 @@ use super::choices::{Choices, Floats, NO_LIGHT};
 use super::environment::{BATCH_SIZE, DirectionBatch, Environment};
 use super::node::Node;
 use super::select::Selection;
+use super::shape_queues::ShapeQueues;
 use super::{Far, LightSample, Lights, Parallelogram, Receiver, Source};
 use crate::geometry::Geometry;
 use crate::offset::SurfacePoint;
@@ -28,13 +29,15 @@ const ENVIRONMENT: u8 = MOST_QUEUES;
 /// In place of a queue: the light is sampled at once.
 const NO_QUEUE: u8 = u8::MAX;
 
-type Vectors = soa::Vectors<BATCH_SIZE>;
+pub(super) type Vectors = soa::Vectors<BATCH_SIZE>;
 
 /// Vertices that wait until a batch of them is full.
 pub(crate) struct LightQueues {
     receivers: ReceiverQueue,
     /// Of parallelograms, and of the environment.
     lights: [LightQueue; ENVIRONMENT as usize + 1],
+    /// Of spheres and triangles.
+    shapes: ShapeQueues,
     directions: DirectionBatch,
 }
 
@@ -48,14 +51,20 @@ struct ReceiverQueue {
     count: usize,
 }
 
+/// Receivers that wait for a sample of the light that was chosen for them.
+pub(super) struct Waiting {
+    pub(super) vertices: [usize; BATCH_SIZE],
+    pub(super) lights: [u32; BATCH_SIZE],
+    pub(super) probabilities: Floats,
+    pub(super) point: Vectors,
+    pub(super) u: [Floats; 2],
+    count: usize,
+}
+
 /// Receivers that one light was chosen for.
 struct LightQueue {
-    vertices: [usize; BATCH_SIZE],
-    probabilities: Floats,
-    point: Vectors,
-    u: [Floats; 2],
+    waiting: Waiting,
     samples: ParallelogramSamples,
-    count: usize,
 }
 
 /// A [`ParallelogramSample`](super::ParallelogramSample) of each.
@@ -65,7 +74,7 @@ struct ParallelogramSamples {
     pdf: Floats,
 }
 
-const ZERO: Floats = Floats::of(0.0);
+pub(super) const ZERO: Floats = Floats::of(0.0);
 
 impl LightQueues {
     pub(crate) fn new() -> Box<Self> {
@@ -78,6 +87,7 @@ impl LightQueues {
                 count: 0,
             },
             lights: [const { LightQueue::EMPTY }; ENVIRONMENT as usize + 1],
+            shapes: ShapeQueues::EMPTY,
             directions: DirectionBatch::ZERO,
         })
     }
@@ -85,29 +95,56 @@ impl LightQueues {
 
 impl LightQueue {
     const EMPTY: Self = Self {
-        vertices: [0; BATCH_SIZE],
-        probabilities: ZERO,
-        point: Vectors::ZERO,
-        u: [ZERO; 2],
+        waiting: Waiting::EMPTY,
         samples: ParallelogramSamples {
             point: Vectors::ZERO,
             wi: Vectors::ZERO,
             pdf: ZERO,
         },
+    };
+}
+
+impl Waiting {
+    pub(super) const EMPTY: Self = Self {
+        vertices: [0; BATCH_SIZE],
+        lights: [0; BATCH_SIZE],
+        probabilities: ZERO,
+        point: Vectors::ZERO,
+        u: [ZERO; 2],
         count: 0,
     };
 
-    /// Adds a receiver; returns whether the queue is full.
+    /// Where the next receiver is added.
     #[inline(always)]
-    fn push(&mut self, vertex: usize, probability: f32, p: Vec3<f32>, u: [f32; 2]) -> bool {
-        let at = self.count % BATCH_SIZE;
+    pub(super) fn next(&self) -> usize {
+        self.count % BATCH_SIZE
+    }
+
+    /// Adds a receiver; returns whether the queue is full.
+    ///
+    /// * `chosen`: the light and its probability.
+    #[inline(always)]
+    pub(super) fn push(
+        &mut self,
+        vertex: usize,
+        chosen: (u32, f32),
+        p: Vec3<f32>,
+        u: [f32; 2],
+    ) -> bool {
+        let at = self.next();
         self.vertices[at] = vertex;
-        self.probabilities[at] = probability;
+        (self.lights[at], self.probabilities[at]) = chosen;
         self.point.set(at, p);
         self.u[0][at] = u[0];
         self.u[1][at] = u[1];
         self.count = at + 1;
         self.count == BATCH_SIZE
+    }
+
+    /// How many wait, all of which are about to be sampled.
+    #[inline(always)]
+    pub(super) fn take_count(&mut self) -> usize {
+        std::mem::take(&mut self.count)
     }
 }
 
@@ -144,6 +181,7 @@ impl Lights {
         for queue in 0..=ENVIRONMENT {
             self.sample_queue(queues, queue, &mut store);
         }
+        queues.shapes.sample_rest(&self.sources, &mut store);
     }
 
     /// Of each light its queue.
@@ -195,18 +233,19 @@ impl Lights {
         for at in 0..n {
             let r = &queues.receivers;
             let vertex = r.vertices[at];
-            let (light, probability) = (r.choices.light[at], r.choices.probability[at]);
+            let light = r.choices.light[at];
+            let chosen = (light, r.choices.probability[at]);
             shares[vertex] = r.choices.share[at];
             let (p, u) = (r.point.get(at), [u[1][vertex], u[2][vertex]]);
             let queue = self.queues.get(light as usize).copied().unwrap_or(NO_QUEUE);
             if let Some(waiting) = queues.lights.get_mut(usize::from(queue)) {
-                if waiting.push(vertex, probability, p, u) {
+                if waiting.waiting.push(vertex, chosen, p, u) {
                     self.sample_queue(queues, queue, store);
                 }
             } else if light == NO_LIGHT {
                 store(vertex, None);
-            } else {
-                store(vertex, self.sample_one((light, probability), p, world, u));
+            } else if !(queues.shapes).push(&self.sources, vertex, chosen, (p, u), store) {
+                store(vertex, self.sample_one(chosen, p, world, u));
             }
         }
     }
@@ -233,8 +272,8 @@ impl Lights {
         let LightQueues {
             lights, directions, ..
         } = queues;
-        let environment = &mut lights[usize::from(ENVIRONMENT)];
-        let n = std::mem::take(&mut environment.count);
+        let environment = &mut lights[usize::from(ENVIRONMENT)].waiting;
+        let n = environment.take_count();
         let Some((light, _)) = self.environment().filter(|_| n > 0) else {
             return;
         };
@@ -261,7 +300,7 @@ impl Lights {
         store: &mut impl FnMut(usize, Option<LightSample>),
     ) {
         let queue = &mut queues.lights[light];
-        let n = std::mem::take(&mut queue.count);
+        let n = queue.waiting.take_count();
         if n == 0 {
             return;
         }
@@ -280,7 +319,7 @@ impl Lights {
             let sampled = LightSample {
                 wi,
                 radiance: *radiance,
-                pdf: queue.probabilities[i] * pdf,
+                pdf: queue.waiting.probabilities[i] * pdf,
                 delta: false,
                 target: Some(SurfacePoint {
                     position: queue.samples.point.get(i),
@@ -288,7 +327,10 @@ impl Lights {
                     normal: light.normal,
                 }),
             };
-            store(queue.vertices[i], (emits && pdf > 0.0).then_some(sampled));
+            store(
+                queue.waiting.vertices[i],
+                (emits && pdf > 0.0).then_some(sampled),
+            );
         }
     }
 
@@ -376,7 +418,9 @@ fn choose_by_treelets(n: usize, selection: &Selection, receivers: &mut ReceiverQ
 #[apply(simd_levels)]
 fn sample_points(n: usize, light: &Parallelogram, queue: &mut LightQueue) {
     for i in 0..n.min(BATCH_SIZE) {
-        let sample = light.sample(queue.point.get(i), [queue.u[0][i], queue.u[1][i]]);
+        let waiting = &queue.waiting;
+        let u = [waiting.u[0][i], waiting.u[1][i]];
+        let sample = light.sample(waiting.point.get(i), u);
         queue.samples.point.set(i, sample.point);
         queue.samples.wi.set(i, sample.wi);
         queue.samples.pdf[i] = sample.pdf;

@@ -17,10 +17,13 @@ mod piecewise;
 mod portal;
 mod projected;
 mod select;
+mod shape_queues;
+mod sphere;
 mod sun;
 mod textured;
 mod tree;
 mod treelet;
+mod triangle;
 
 #[cfg(test)]
 mod tests;

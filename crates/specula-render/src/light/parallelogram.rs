@@ -7,6 +7,7 @@
 use specula_bsdf::Vec3;
 
 use super::angles::{sin_cos_of_half, turns};
+use super::area::AreaSample;
 use crate::convert::{abs, narrow};
 use crate::geometry::unit_or;
 use crate::offset::coupled;
@@ -25,10 +26,10 @@ pub(crate) struct Parallelogram {
     pub(crate) normal: Vec3<f32>,
     pub(super) area: f32,
     /// Edges of length 1, and the lengths.
-    axes: [Vec3<f32>; 2],
-    sides: [f32; 2],
+    pub(super) axes: [Vec3<f32>; 2],
+    pub(super) sides: [f32; 2],
     /// Solid angle from which on it is sampled by that.
-    least: f32,
+    pub(super) least: f32,
     /// Bound on the error of each component of a point.
     pub(crate) error: Vec3<f32>,
 }
@@ -119,6 +120,19 @@ impl Parallelogram {
             point,
             wi,
             pdf: if usable { pdf } else { 0.0 },
+        }
+    }
+
+    /// [`Self::sample`] with what all of its points have in common.
+    #[inline(always)]
+    pub(super) fn area_sample(&self, p: Vec3<f32>, u: [f32; 2]) -> AreaSample {
+        let ParallelogramSample { point, wi, pdf } = self.sample(p, u);
+        AreaSample {
+            point,
+            error: self.error,
+            normal: self.normal,
+            wi,
+            pdf,
         }
     }
 

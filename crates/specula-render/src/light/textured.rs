@@ -107,7 +107,7 @@ impl Textured {
         let mean = weights.iter().sum::<f64>() / weights.len() as f64;
         let weights = blurred(&weights, cells);
         let largest = weights.iter().copied().fold(0.0, f64::max);
-        let is_triangle = matches!(light.area, Area::Triangle { .. });
+        let is_triangle = matches!(light.area, Area::Triangle(_));
         if is_triangle && cells >= LEAST_CELLS && largest > WORTH_IT * mean {
             let floor = mean * UNIFORM_SHARE / (1.0 - UNIFORM_SHARE);
             let table = Piecewise::new([cells; 2], |x, y| weights[y * cells + x] + floor);

@@ -384,12 +384,13 @@ fn interleaved_rays_are_rays_one_by_one() {
         for batch in rays.chunks(BLOCK).chain([&rays[..2], &rays[..0]]) {
             let (mut hits, mut found) = (vec![None; batch.len()], vec![false; batch.len()]);
             let block = RayBlock::of(batch);
-            let block = (&block, batch.len());
-            interleaved::intersect(Portable, scene, block, &mut hits);
-            interleaved::occluded(Portable, scene, block, &mut found);
+            let all = (&block, batch.len(), 0);
+            interleaved::intersect(Portable, scene, all, &mut hits);
+            interleaved::occluded(Portable, scene, all, &mut found);
             #[cfg(target_arch = "x86_64")]
             if let Some(kernel) = Avx2::detect() {
                 let (mut other, mut others) = (vec![None; batch.len()], vec![false; batch.len()]);
+                let block = (&block, batch.len());
                 kernel.intersect_block(scene, block, &mut other);
                 kernel.occluded_block(scene, block, &mut others);
                 let bits = |hits: Vec<Option<Hit>>| hits.into_iter().map(exact).collect::<Vec<_>>();

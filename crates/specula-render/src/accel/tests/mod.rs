@@ -11,6 +11,7 @@ mod quadric_parts;
 mod quadrics;
 mod reference;
 mod solids;
+mod tree_packs;
 mod watertight;
 
 use specula_bsdf::Vec3;

@@ -1,0 +1,121 @@
+//! Packs of rays in trees against rays one by one, bit for bit.
+
+use glam::{DMat4, DVec3};
+
+#[cfg(target_arch = "x86_64")]
+use super::super::avx2::Avx2;
+use super::super::frame::GROUP;
+use super::super::kernel::Portable;
+use super::super::{BLOCK, RayBlock, tree_packs};
+use super::*;
+
+/// Spheres, one in three squeezed, and some twice.
+fn spheres(count: usize, random: &mut Random) -> Vec<Quadric> {
+    let mut spheres: Vec<Quadric> = (0..count)
+        .map(|i| {
+            let squeezed = if i % 3 == 0 { 0.6 } else { 1.0 };
+            let at = DVec3::from_array(random.vector().to_array().map(f64::from));
+            Quadric {
+                shape: QuadricShape::Sphere {
+                    radius: 0.1 + 0.05 * f64::from(random.signed()),
+                },
+                to_group: DMat4::from_translation(at)
+                    * DMat4::from_scale(DVec3::new(1.0, 1.0, squeezed)),
+            }
+        })
+        .collect();
+    spheres.extend_from_within(..count / 4);
+    spheres
+}
+
+/// Groups of rays: from one point within an angle, some of them no rays.
+fn coherent_rays(count: usize, random: &mut Random) -> Vec<Ray> {
+    let mut rays = Vec::new();
+    while rays.len() < count {
+        let spread = [0.0, 1e-3, 0.02, 0.3][random.below(4)];
+        let origin = random.direction() * (4.0 * random.signed().abs());
+        let towards = random.vector() - origin;
+        for _ in 0..GROUP {
+            let mut ray = ray(origin, towards + random.vector() * spread);
+            match random.below(200) {
+                0 => ray.t_max = random.signed(),
+                1 => ray.t_max = f32::NAN,
+                2..30 => ray.t_max = 0.9 + 0.3 * random.signed(),
+                _ => {}
+            }
+            rays.push(ray);
+        }
+    }
+    rays
+}
+
+/// Holds packs of all instruction sets against single rays; returns how many rays hit, and how many are in packs.
+fn compare(accel: &Accel, rays: &[Ray]) -> [usize; 2] {
+    let scene = &accel.scene;
+    let mut counts = [0; 2];
+    for batch in rays.chunks(BLOCK) {
+        let block = RayBlock::of(batch);
+        let block = (&block, batch.len());
+        let (mut hits, mut found) = (vec![None; batch.len()], vec![false; batch.len()]);
+        let groups = tree_packs::intersect(Portable, scene, block, &mut hits);
+        assert_eq!(
+            tree_packs::occluded(Portable, scene, block, &mut found),
+            groups
+        );
+        for (i, ray) in batch.iter().enumerate() {
+            if groups >> (i / GROUP) & 1 == 1 {
+                assert_eq!(exact(hits[i]), exact(accel.intersect(ray)), "{ray:?}");
+                assert_eq!(found[i], accel.occluded(ray), "{ray:?}");
+                counts[0] += usize::from(found[i]);
+                counts[1] += 1;
+            }
+        }
+        #[cfg(target_arch = "x86_64")]
+        if let Some(kernel) = Avx2::detect() {
+            for kernel in [kernel, kernel.narrow()] {
+                let (mut hits, mut found) = (vec![None; batch.len()], vec![false; batch.len()]);
+                kernel.intersect_block(scene, block, &mut hits);
+                kernel.occluded_block(scene, block, &mut found);
+                for ((ray, hit), found) in batch.iter().zip(hits).zip(found) {
+                    assert_eq!(exact(hit), exact(accel.intersect(ray)), "{ray:?}");
+                    assert_eq!(found, accel.occluded(ray), "{ray:?}");
+                }
+            }
+        }
+    }
+    counts
+}
+
+#[test]
+fn packs_are_rays_one_by_one() {
+    let mut random = Random(31);
+    for (triangles, balls, patches) in [
+        (300, 0, 0),
+        (0, 70, 0),
+        (40, 60, 12),
+        (5000, 90, 40),
+        (60_000, 0, 0),
+    ] {
+        let mut mesh = Mesh::soup(triangles, &mut random);
+        // Some twice, so that distances are equal.
+        mesh.triangles.extend_from_within(..triangles / 8);
+        let quadrics = spheres(balls, &mut random);
+        let patches = patches::soup(patches, &mut mesh.positions, &mut random);
+        let group = Group {
+            quadrics: &quadrics,
+            patches: &patches,
+            ..mesh.group()
+        };
+        let accel = Accel::build(&[group], &[Instance::of(0)]).unwrap();
+        let coherent = coherent_rays(12_000, &mut random);
+        let [hits, in_packs] = compare(&accel, &coherent);
+        assert!(in_packs > 6000 && hits > 1000, "{in_packs} {hits}");
+        // Of a few nodes: any rays go in packs.
+        let any: Vec<Ray> = (0..6016)
+            .map(|_| ray(random.vector() * 1.5, random.direction()))
+            .collect();
+        let [_, in_packs] = compare(&accel, &any);
+        let is_small = accel.stats().nodes <= tree_packs::MOST_NODES;
+        assert_eq!(in_packs == any.len(), is_small, "{in_packs}");
+    }
+}
