@@ -24,7 +24,14 @@ pub struct Renderer<'a> {
     pub(crate) options: RenderOptions,
     pub(crate) film: FilmBuffer,
     /// Those that no thread uses.
-    wavefronts: Mutex<Vec<Wavefront>>,
+    workers: Mutex<Vec<Worker>>,
+}
+
+/// What a thread renders a tile with.
+struct Worker {
+    wavefront: Wavefront,
+    /// The tile's pixels as they were before, in case that it is stopped.
+    before: Vec<PixelSums>,
 }
 
 /// What a pass did.
@@ -91,7 +98,7 @@ impl<'a> Renderer<'a> {
             scene,
             film: FilmBuffer::new(scene.resolution, scene.crop, options.first_sample),
             options,
-            wavefronts: Mutex::default(),
+            workers: Mutex::default(),
         };
         renderer.begin();
         renderer
@@ -129,7 +136,7 @@ impl<'a> Renderer<'a> {
             scene,
             options,
             film,
-            wavefronts: Mutex::default(),
+            workers: Mutex::default(),
         };
         renderer.begin();
         Ok(renderer)
@@ -186,7 +193,7 @@ impl<'a> Renderer<'a> {
         let goals = self.goals(samples);
         let options = &self.options;
         let tracer = PathTracer::new(self.scene, options);
-        let wavefronts = &self.wavefronts;
+        let workers = &self.workers;
         let (done, complete) = self
             .film
             .tiles
@@ -200,14 +207,19 @@ impl<'a> Renderer<'a> {
                 if stop.load(Ordering::Relaxed) {
                     return (Done::default(), false);
                 }
-                let mut wavefront = free(wavefronts).pop().unwrap_or_else(Wavefront::new);
-                let before = tile.clone();
-                let done = render_tile(&tracer, &mut wavefront, (options, stop), tile, goal);
+                let mut worker = free(workers).pop().unwrap_or_else(|| Worker {
+                    wavefront: Wavefront::new(),
+                    before: Vec::new(),
+                });
+                let (invalid, rays) = (tile.invalid, tile.rays);
+                worker.before.clone_from(&tile.pixels);
+                let done = render_tile(&tracer, &mut worker.wavefront, (options, stop), tile, goal);
                 let Some(done) = done else {
-                    *tile = before;
+                    (tile.invalid, tile.rays) = (invalid, rays);
+                    tile.pixels.copy_from_slice(&worker.before);
                     return (Done::default(), false);
                 };
-                free(wavefronts).push(wavefront);
+                free(workers).push(worker);
                 (done, true)
             })
             .reduce(
@@ -273,9 +285,9 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// The wavefronts that no thread uses.
-fn free(wavefronts: &Mutex<Vec<Wavefront>>) -> MutexGuard<'_, Vec<Wavefront>> {
-    wavefronts.lock().unwrap_or_else(PoisonError::into_inner)
+/// The workers that no thread uses.
+fn free(workers: &Mutex<Vec<Worker>>) -> MutexGuard<'_, Vec<Worker>> {
+    workers.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// What was done for a tile, or for several.

@@ -77,9 +77,15 @@ impl Aim {
 }
 
 impl Tile {
-    /// Samples of the tile's pixels.
+    /// Samples of each of the tile's pixels.
     pub(crate) fn count(&self) -> u32 {
         self.pixels.first().map_or(0, |p| p.count)
+    }
+
+    /// Whether all of its pixels have as many.
+    pub(super) fn is_even(&self) -> bool {
+        let count = self.count();
+        self.pixels.iter().all(|p| p.count == count)
     }
 
     /// Whether it lacks samples that were allotted to it.
@@ -288,8 +294,10 @@ fn halfway(low: f64, high: f64) -> f64 {
 /// The nearest of 4, 6, 8, 12, 16, 24, ... to a number of samples: a tile has as many, since sequences are
 /// evenest after powers of two.
 fn rung(samples: f64) -> u32 {
-    let exponent = samples.max(f64::from(LEAST)).log2().floor().min(30.0);
-    let power = exponent.exp2();
+    // The largest power of two that is not above, of a positive normal number: without its digits.
+    const DIGITS: u64 = (1 << 52) - 1;
+    let power = f64::from_bits(samples.max(f64::from(LEAST)).to_bits() & !DIGITS);
+    let power = power.min(f64::from(1 << 30));
     let rung = match samples / power {
         ratio if ratio < 1.25 => power,
         ratio if ratio < 1.75 => 1.5 * power,

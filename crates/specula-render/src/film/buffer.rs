@@ -224,7 +224,9 @@ impl FilmBuffer {
             rays: 0,
             target: 0,
         };
-        let tiles = tiles_of(crop).map(tile).collect();
+        // By all threads: the system clears every page.
+        let bounds: Vec<[u32; 4]> = tiles_of(crop).collect();
+        let tiles = bounds.into_par_iter().map(tile).collect();
         Self {
             full_resolution,
             crop,
@@ -246,7 +248,7 @@ impl FilmBuffer {
         if !self.parts.is_empty() {
             return self.parts.clone();
         }
-        match self.sums().map(|p| p.count).max() {
+        match self.tiles.iter().map(Tile::count).max() {
             Some(most @ 1..) => vec![[self.first_sample, self.first_sample.saturating_add(most)]],
             _ => Vec::new(),
         }
@@ -262,7 +264,7 @@ impl FilmBuffer {
         self.first_sample
     }
 
-    /// A film of stored sums; `None` where the parts do not fit each other.
+    /// A film of stored sums; `None` where the parts do not fit each other, or pixels of a tile differ in their samples.
     pub(crate) fn restore(
         full_resolution: [u32; 2],
         crop: [u32; 4],
@@ -273,7 +275,8 @@ impl FilmBuffer {
     ) -> Option<Self> {
         let ordered = parts.windows(2).all(|p| p[0][1] < p[1][0]);
         let whole = tiles.iter().all(|t| t.pixels.len() == area(t.bounds))
-            && tiles.iter().map(|t| t.bounds).eq(tiles_of(crop));
+            && tiles.iter().map(|t| t.bounds).eq(tiles_of(crop))
+            && tiles.iter().all(Tile::is_even);
         if !ordered || !whole || parts.iter().any(|[from, to]| from >= to) {
             return None;
         }
@@ -294,14 +297,16 @@ impl FilmBuffer {
 
     /// Samples that every pixel has at least.
     pub fn complete_samples(&self) -> u32 {
-        self.sums().map(|p| p.count).min().unwrap_or(0)
+        self.tiles.iter().map(Tile::count).min().unwrap_or(0)
     }
 
     /// The most samples of any pixel, and their mean over the pixels.
     pub fn most_and_mean_samples(&self) -> (u32, f64) {
-        let most = self.sums().map(|p| p.count).max().unwrap_or(0);
-        let sum: u64 = self.sums().map(|p| u64::from(p.count)).sum();
-        (most, sum as f64 / self.sums().count().max(1) as f64)
+        let most = self.tiles.iter().map(Tile::count).max().unwrap_or(0);
+        let pixels: usize = self.tiles.iter().map(|t| t.pixels.len()).sum();
+        let of_tile = |t: &Tile| u64::from(t.count()) * t.pixels.len() as u64;
+        let sum: u64 = self.tiles.iter().map(of_tile).sum();
+        (most, sum as f64 / pixels.max(1) as f64)
     }
 
     /// Samples that were not finite. They count as black; a correct renderer has none.
@@ -344,7 +349,7 @@ impl FilmBuffer {
         });
         // One range of which no pixel lacks a sample can be gone on with.
         match all[..] {
-            [[from, to]] if self.sums().all(|p| p.count == to - from) => {
+            [[from, to]] if self.tiles.iter().all(|t| t.count() == to - from) => {
                 self.first_sample = from;
                 self.parts.clear();
             }
@@ -409,10 +414,6 @@ impl FilmBuffer {
         }
         picture
     }
-
-    pub(super) fn sums(&self) -> impl Iterator<Item = &PixelSums> {
-        self.tiles.iter().flat_map(|t| &t.pixels)
-    }
 }
 
 #[cfg(test)]
@@ -463,11 +464,11 @@ mod tests {
         assert_eq!(p.mean(), [2.0; 3]);
     }
 
-    /// A film of 5 x 4 pixels with `n` samples from `first` on, each its own number.
+    /// A film of 20 x 4 pixels, in two tiles, with `n` samples from `first` on, each its own number.
     fn film(first: u32, n: u32) -> FilmBuffer {
-        let mut film = FilmBuffer::new([5, 4], [0, 5, 0, 4], first);
+        let mut film = FilmBuffer::new([20, 4], [0, 20, 0, 4], first);
         for number in first..first + n {
-            for p in &mut film.tiles[0].pixels {
+            for p in film.tiles.iter_mut().flat_map(|t| &mut t.pixels) {
                 p.add(&sample(number as f32 * 0.1), 0.7);
             }
         }
@@ -492,7 +493,7 @@ mod tests {
         let mut a = film(0, 10);
         assert_eq!(a.merge(&film(9, 5)), Err(MergeError::Overlap(9, 10)));
         assert_eq!(a.merge(&film(3, 2)), Err(MergeError::Overlap(3, 5)));
-        let other = FilmBuffer::new([5, 4], [0, 3, 0, 4], 10);
+        let other = FilmBuffer::new([20, 4], [0, 3, 0, 4], 10);
         assert_eq!(a.merge(&other), Err(MergeError::Size));
         assert_eq!(a, film(0, 10));
     }
@@ -500,10 +501,28 @@ mod tests {
     #[test]
     fn a_part_with_an_unfinished_pass_cannot_be_gone_on_with() {
         let mut a = film(0, 10);
-        a.tiles[0].pixels[3].add(&sample(1.0), 1.0);
+        for p in &mut a.tiles[1].pixels {
+            p.add(&sample(1.0), 1.0);
+        }
         assert_eq!(a.samples(), [[0, 11]]);
+        assert_eq!(
+            (a.complete_samples(), a.most_and_mean_samples()),
+            (10, (11, 10.2))
+        );
         a.merge(&film(11, 4)).unwrap();
         assert_eq!((a.samples(), a.is_open()), (vec![[0, 15]], false));
+    }
+
+    #[test]
+    fn pixels_of_a_tile_have_as_many_samples() {
+        let whole = film(0, 3);
+        let restored = |tiles: Vec<Tile>| {
+            FilmBuffer::restore([20, 4], [0, 20, 0, 4], 0, Vec::new(), 0.0, tiles)
+        };
+        assert_eq!(restored(whole.tiles.clone()), Some(whole.clone()));
+        let mut tiles = whole.tiles;
+        tiles[1].pixels[3].count += 1;
+        assert_eq!(restored(tiles), None);
     }
 
     #[test]

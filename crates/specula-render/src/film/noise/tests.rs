@@ -55,7 +55,9 @@ fn fill(film: &mut FilmBuffer, samples: u32, mut value: impl FnMut(usize) -> f64
 
 /// The true squared errors of pixels whose mean is 1, as the estimate weighs them.
 fn true_errors(film: &FilmBuffer) -> Vec<f64> {
-    film.sums()
+    film.tiles
+        .iter()
+        .flat_map(|t| &t.pixels)
         .map(|p| (p.luminance_and_deviation()[0] - 1.0).powi(2) / (1.0 + DARKEST))
         .collect()
 }
