@@ -2,14 +2,14 @@
 //! neighbours to one light. In trees of a few nodes, any.
 //!
 //! Every box and every triangle is tested against all rays of a pack at once, one ray to a lane. Which of them go on is a
-//! set of lanes. Where few are left, they go on alone, from that child. Tests are operation by operation those of
+//! set of lanes. Where few are left, they go on alone, from that child. In large trees [`super::interleaved`] is faster for
+//! rays that part early: after the first pack of such, it takes the rest of the block. Tests are operation by operation those of
 //! [`super::traverse`], whose boxes cull no hit: the answers are equal bit for bit.
 #![allow(
     clippy::needless_range_loop,
     reason = "an index below the arrays' length is what the compiler makes vectors of"
 )]
 
-use super::Hit;
 use super::ball::Ball;
 use super::block::RayBlock;
 use super::frame::{AXES, FrameGroup, GROUP, SLACK};
@@ -17,9 +17,13 @@ use super::kernel::{Kernel, STACK};
 use super::node::{self, Child, ChildKind, Node8, Packet8, WIDTH};
 use super::traverse::{ClosestHit, GroupLeaves, Scene};
 use super::triangle::{self, max, min};
+use super::{Hit, interleaved};
 
 /// Lanes below which rays go on alone. Measured.
 const FEW: u32 = 3;
+/// How often rays of a pack may go on alone in a large tree, until the rest of their block is interleaved instead.
+/// Measured.
+const MOST_PARTED: u32 = 24;
 /// Most nodes of a tree through which all rays go in packs. Measured.
 pub(super) const MOST_NODES: usize = 64;
 
@@ -65,6 +69,8 @@ struct Pack<'a> {
     v: Column,
     primitive: [u32; GROUP],
     hit: Lanes,
+    /// How often a ray has gone on alone.
+    parted: u32,
 }
 
 /// The closest hits of those of the first `n` rays of a block that are traversed so. Returns which groups of [`GROUP`] rays
@@ -103,6 +109,7 @@ fn cast<K: Kernel, const ANY: bool>(
         return 0;
     };
     let leaves = GroupLeaves { scene, instance };
+    let is_large = interleaved::gains(scene);
     let mut stack = None;
     let mut groups = 0;
     for (nth, first) in (0..n.saturating_sub(GROUP - 1)).step_by(GROUP).enumerate() {
@@ -125,6 +132,10 @@ fn cast<K: Kernel, const ANY: bool>(
             done(first + lane, pack.closest(lane, instance).hit());
         }
         groups |= 1 << nth;
+        // Where they part early, the others of the block are likely to do so, too.
+        if is_large && pack.parted > MOST_PARTED {
+            break;
+        }
     }
     groups
 }
@@ -205,6 +216,7 @@ impl<'a> Pack<'a> {
             v: Column::ZERO,
             primitive: [0; GROUP],
             hit: 0,
+            parted: 0,
             frames,
         };
         pack.set_cull();
@@ -490,6 +502,7 @@ impl<'a> Pack<'a> {
         child: Child,
         mut lanes: Lanes,
     ) {
+        self.parted += lanes.count_ones();
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize % GROUP;
             lanes &= lanes - 1;

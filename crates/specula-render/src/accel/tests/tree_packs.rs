@@ -6,7 +6,7 @@ use glam::{DMat4, DVec3};
 use super::super::avx2::Avx2;
 use super::super::frame::GROUP;
 use super::super::kernel::Portable;
-use super::super::{BLOCK, RayBlock, tree_packs};
+use super::super::{BLOCK, RayBlock, interleaved, tree_packs};
 use super::*;
 
 /// Spheres, one in three squeezed, and some twice.
@@ -58,16 +58,16 @@ fn compare(accel: &Accel, rays: &[Ray]) -> [usize; 2] {
         let block = (&block, batch.len());
         let (mut hits, mut found) = (vec![None; batch.len()], vec![false; batch.len()]);
         let groups = tree_packs::intersect(Portable, scene, block, &mut hits);
-        assert_eq!(
-            tree_packs::occluded(Portable, scene, block, &mut found),
-            groups
-        );
+        let shadow_groups = tree_packs::occluded(Portable, scene, block, &mut found);
         for (i, ray) in batch.iter().enumerate() {
-            if groups >> (i / GROUP) & 1 == 1 {
+            let is_in = |groups: u32| groups >> (i / GROUP) & 1 == 1;
+            if is_in(groups) {
                 assert_eq!(exact(hits[i]), exact(accel.intersect(ray)), "{ray:?}");
-                assert_eq!(found[i], accel.occluded(ray), "{ray:?}");
-                counts[0] += usize::from(found[i]);
+                counts[0] += usize::from(hits[i].is_some());
                 counts[1] += 1;
+            }
+            if is_in(shadow_groups) {
+                assert_eq!(found[i], accel.occluded(ray), "{ray:?}");
             }
         }
         #[cfg(target_arch = "x86_64")]
@@ -109,7 +109,12 @@ fn packs_are_rays_one_by_one() {
         let accel = Accel::build(&[group], &[Instance::of(0)]).unwrap();
         let coherent = coherent_rays(12_000, &mut random);
         let [hits, in_packs] = compare(&accel, &coherent);
-        assert!(in_packs > 6000 && hits > 1000, "{in_packs} {hits}");
+        let least = match interleaved::gains(&accel.scene) {
+            // Rays that part are left to others.
+            true => [2000, 500],
+            false => [6000, 1000],
+        };
+        assert!(in_packs > least[0] && hits > least[1], "{in_packs} {hits}");
         // Of a few nodes: any rays go in packs.
         let any: Vec<Ray> = (0..6016)
             .map(|_| ray(random.vector() * 1.5, random.direction()))
