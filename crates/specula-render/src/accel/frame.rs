@@ -59,6 +59,17 @@ fn nearer_sides(direction: &[f32; 3]) -> [u8; 3] {
     [x, 2 + y, 4 + z]
 }
 
+/// Components in the order that [`AXES`] has for an axis, compiled to selections.
+#[inline(always)]
+pub(super) fn permuted(axis: u8, [x, y, z]: [f32; 3]) -> [f32; 3] {
+    let pick = |first: f32, second: f32, third: f32| match axis {
+        0 => first,
+        1 => second,
+        _ => third,
+    };
+    [pick(y, z, x), pick(z, x, y), pick(x, y, z)]
+}
+
 /// The frames of sixteen rays of a block: what takes divisions is computed for all at once.
 pub(super) struct FrameGroup<'a> {
     pub(super) rays: &'a RayBlock,
@@ -107,15 +118,9 @@ impl<'a> FrameGroup<'a> {
             let (o, [x, y, z]) = ([o[0][k], o[1][k], o[2][k]], [d[0][k], d[1][k], d[2][k]]);
             let (axis, can_hit) = axis_of(o, [x, y, z], t_max[k]);
             group.axis[k] = if can_hit { axis } else { NO_AXIS };
-            // As `AXES` says, but compiled to selections.
-            let pick = |first, second, third| match axis {
-                0 => first,
-                1 => second,
-                _ => third,
-            };
-            let greatest = pick(x, y, z);
-            group.shear[0][k] = pick(y, z, x) / greatest;
-            group.shear[1][k] = pick(z, x, y) / greatest;
+            let [first, second, greatest] = permuted(axis, [x, y, z]);
+            group.shear[0][k] = first / greatest;
+            group.shear[1][k] = second / greatest;
         }
         group
     }

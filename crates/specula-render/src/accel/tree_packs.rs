@@ -12,9 +12,10 @@
 
 use super::ball::Ball;
 use super::block::RayBlock;
-use super::frame::{AXES, FrameGroup, GROUP, SLACK};
+use super::frame::{AXES, FrameGroup, GROUP, SLACK, permuted};
 use super::kernel::{Kernel, STACK};
 use super::node::{self, Child, ChildKind, Node8, Packet8, WIDTH};
+use super::pack::Column;
 use super::traverse::{ClosestHit, GroupLeaves, Scene};
 use super::triangle::{self, max, min};
 use super::{Hit, interleaved};
@@ -26,15 +27,6 @@ const FEW: u32 = 3;
 const MOST_PARTED: u32 = 24;
 /// Most nodes of a tree through which all rays go in packs. Measured.
 pub(super) const MOST_NODES: usize = 64;
-
-/// One value of each ray.
-#[derive(Clone, Copy)]
-#[repr(C, align(64))]
-pub(super) struct Column(pub(super) [f32; GROUP]);
-
-impl Column {
-    const ZERO: Self = Self([0.0; GROUP]);
-}
 
 /// A set of lanes, as bits.
 type Lanes = u32;
@@ -138,17 +130,6 @@ fn cast<K: Kernel, const ANY: bool>(
         }
     }
     groups
-}
-
-/// Components in the order of [`AXES`], by selections.
-#[inline(always)]
-fn permuted(greatest: u8, [x, y, z]: [f32; 3]) -> [f32; 3] {
-    let pick = |first: f32, second: f32, third: f32| match greatest {
-        0 => first,
-        1 => second,
-        _ => third,
-    };
-    [pick(y, z, x), pick(z, x, y), pick(x, y, z)]
 }
 
 impl<'a> Pack<'a> {

@@ -36,7 +36,7 @@ pub(crate) struct LightQueues {
     receivers: ReceiverQueue,
     /// Of parallelograms, and of the environment.
     lights: [LightQueue; ENVIRONMENT as usize + 1],
-    /// Of spheres and triangles.
+    /// Of spheres, triangles and other parallelograms.
     shapes: ShapeQueues,
     directions: DirectionBatch,
 }
@@ -238,8 +238,8 @@ impl Lights {
             shares[vertex] = r.choices.share[at];
             let (p, u) = (r.point.get(at), [u[1][vertex], u[2][vertex]]);
             let queue = self.queues.get(light as usize).copied().unwrap_or(NO_QUEUE);
-            if let Some(waiting) = queues.lights.get_mut(usize::from(queue)) {
-                if waiting.waiting.push(vertex, chosen, p, u) {
+            if let Some(own) = queues.lights.get_mut(usize::from(queue)) {
+                if own.waiting.push(vertex, chosen, p, u) {
                     self.sample_queue(queues, queue, store);
                 }
             } else if light == NO_LIGHT {
