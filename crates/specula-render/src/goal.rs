@@ -1,12 +1,13 @@
-//! When a render is done, and how many samples its next pass takes: few at first, then as many as fit into a second or
+//! When a render is done, and how many samples its next pass takes: one at first, then as many as fit into a second or
 //! two.
 
 use std::time::Duration;
 
 /// Longest pass that is aimed at: between passes the progress is shown and the clock is read.
 const LONGEST_PASS: Duration = Duration::from_millis(1500);
-/// Passes below this make the next one three times as large as all before, others as large: each costs something.
-const SHORT_PASS: Duration = Duration::from_millis(100);
+/// A pass takes at most this many times the samples of all before: so much can be told from how long those took.
+const MOST_GROWTH: u32 = 15;
+
 /// When a render is done, but for the noise that it may aim at: whatever comes first.
 ///
 /// ```no_run
@@ -68,9 +69,8 @@ impl RenderGoal {
         last: Option<(u32, Duration)>,
         elapsed: Duration,
     ) -> Option<u32> {
-        // 1, 3, 12, 48, ..., then 48, 96, ..., until a pass is long enough.
-        let is_short = last.is_some_and(|(_, duration)| duration < SHORT_PASS);
-        let mut samples = done.saturating_mul(if is_short { 3 } else { 1 }).max(1);
+        // Few passes: each starts its threads and waits for the last of them.
+        let mut samples = done.saturating_mul(MOST_GROWTH).max(1);
         let rest = self.time.map(|limit| limit.saturating_sub(elapsed));
         if done > 0 && rest.is_some_and(|rest| rest.is_zero()) {
             return None;
@@ -121,18 +121,25 @@ mod tests {
     #[test]
     fn passes_grow_and_end_at_the_asked_samples() {
         let (mut done, mut last, mut passes) = (0, None, Vec::new());
-        while let Some(n) = RenderGoal::samples(21).next_pass(done, last, FAST) {
+        while let Some(n) = RenderGoal::samples(300).next_pass(done, last, FAST) {
             passes.push(n);
             done += n;
             last = Some((n, FAST));
         }
-        assert_eq!(passes, [1, 3, 12, 5]);
+        assert_eq!(passes, [1, 15, 240, 44]);
     }
 
     #[test]
-    fn passes_that_take_a_while_double() {
-        let last = Some((12, Duration::from_millis(200)));
-        assert_eq!(RenderGoal::samples(100).next_pass(16, last, FAST), Some(16));
+    fn passes_take_as_many_samples_as_fit() {
+        // 250 ms a sample, after the first and later.
+        let goal = RenderGoal::samples(100);
+        let (one, six) = (Duration::from_millis(250), Duration::from_millis(1500));
+        assert_eq!(goal.next_pass(1, Some((1, one)), FAST), Some(6));
+        assert_eq!(goal.next_pass(7, Some((6, six)), FAST), Some(6));
+        assert_eq!(
+            RenderGoal::samples(8).next_pass(7, Some((6, six)), FAST),
+            Some(1)
+        );
     }
 
     #[test]
