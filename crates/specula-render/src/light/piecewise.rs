@@ -1,5 +1,7 @@
 //! A distribution over the unit square, constant in every cell of a grid.
 
+use rayon::prelude::*;
+
 use crate::convert::{floor_index, id, narrow};
 use crate::soa::{Column, Floats};
 use crate::words::Words;
@@ -21,19 +23,20 @@ impl Piecewise {
     /// * `weight`: of the cell in column x and row y; finite, not negative. All zero: uniform.
     pub(super) fn new(
         [width, height]: [usize; 2],
-        mut weight: impl FnMut(usize, usize) -> f64,
+        weight: impl Fn(usize, usize) -> f64 + Sync,
     ) -> Self {
-        let mut rows = Vec::with_capacity((width + 1) * height);
-        let mut columns = Vec::with_capacity(height + 1);
-        let mut sums = Vec::with_capacity(height);
-        let mut weights = vec![0.0_f64; width];
-        for y in 0..height {
+        let mut rows = vec![0.0; (width + 1) * height];
+        let mut columns = vec![0.0; height + 1];
+        let row = |weights: &mut Vec<f64>, (y, row): (usize, &mut [f32])| {
             for (x, w) in weights.iter_mut().enumerate() {
                 *w = weight(x, y);
             }
-            sums.push(weights.iter().sum::<f64>());
-            cumulate(&weights, &mut rows);
-        }
+            cumulate(weights, row);
+            weights.iter().sum::<f64>()
+        };
+        let sums: Vec<f64> = (rows.par_chunks_mut(width + 1).enumerate())
+            .map_init(|| vec![0.0_f64; width], row)
+            .collect();
         cumulate(&sums, &mut columns);
         Self {
             width,
@@ -131,19 +134,21 @@ impl Piecewise {
     }
 }
 
-/// Appends the cumulated shares of `weights`, from 0 to 1; equal shares where all are zero.
-fn cumulate(weights: &[f64], to: &mut Vec<f32>) {
+/// The cumulated shares of `weights`, from 0 to 1; equal shares where all are zero.
+///
+/// * `to`: one more than weights.
+fn cumulate(weights: &[f64], to: &mut [f32]) {
     let sum: f64 = weights.iter().sum();
     let mut run = 0.0;
-    for (i, w) in weights.iter().enumerate() {
-        to.push(narrow(if sum > 0.0 {
+    to.fill(1.0);
+    for (i, (w, share)) in weights.iter().zip(to).enumerate() {
+        *share = narrow(if sum > 0.0 {
             run / sum
         } else {
             i as f64 / weights.len() as f64
-        }));
+        });
         run += w;
     }
-    to.push(1.0);
 }
 
 /// The cell in which `u` falls, and where within it, in `[0, 1)`.

@@ -25,7 +25,7 @@ pub(super) struct Axis {
     /// Where in the first cell the picture begins, and where in the last it ends.
     ends: [f32; 2],
     /// The pixel at the first cell's beginning; the next is at its end.
-    pub(super) first_pixel: i32,
+    first_pixel: i32,
 }
 
 impl Axis {
@@ -46,6 +46,11 @@ impl Axis {
             ends,
             first_pixel,
         }
+    }
+
+    /// The pixel at the beginning of a cell; a last one is at the end of the last cell.
+    pub(super) fn pixel(&self, cell: u32) -> i32 {
+        cell.cast_signed() + self.first_pixel
     }
 
     /// Five words for shaders.

@@ -3,6 +3,7 @@
 //! The four pixels about each cell lie at fixed places of one array, edges and folds included, with what
 //! is sampled by beside their colours: one look-up has radiance and density.
 
+use rayon::prelude::*;
 use specula_bsdf::math::{rgb, vec3};
 use specula_bsdf::{Rgb, Vec3};
 use specula_scene::Image;
@@ -13,7 +14,7 @@ use super::super::octahedral::{direction_of, square_of};
 use super::super::piecewise::Piecewise;
 use super::axis::{Axis, AxisKind};
 use crate::codes;
-use crate::convert::narrow;
+use crate::convert::{id, narrow};
 use crate::layout;
 use crate::words::Words;
 
@@ -60,19 +61,16 @@ impl Picture {
             EnvironmentMapping::LatitudeLongitudePoles => [Wrapped, Between],
         };
         let axes = [0, 1].map(|k| Axis::new(kinds[k], size[k]));
-        let [width, height] = axes.map(|a| a.cells);
-        let mut corners = Vec::with_capacity((width as usize + 1) * (height as usize + 1));
-        for y in 0..=height.cast_signed() {
-            corners.extend((0..=width.cast_signed()).map(|x| {
-                let c = pixel(
-                    image,
-                    mapping,
-                    [x + axes[0].first_pixel, y + axes[1].first_pixel],
-                );
+        let [width, height] = axes.map(|a| a.cells as usize + 1);
+        let mut corners = vec![[0.0; 4]; width * height];
+        let rows = corners.par_chunks_mut(width).enumerate();
+        rows.for_each(|(y, row)| {
+            for (x, corner) in row.iter_mut().enumerate() {
+                let c = pixel(image, mapping, [axes[0].pixel(id(x)), axes[1].pixel(id(y))]);
                 // A floor of the mean of channels: deep blue has little luminance.
-                [c.r, c.g, c.b, c.luminance().max(c.mean())]
-            }));
-        }
+                *corner = [c.r, c.g, c.b, c.luminance().max(c.mean())];
+            }
+        });
         let mut picture = Self {
             mapping,
             axes,
@@ -94,9 +92,9 @@ impl Picture {
     /// Source: Karlik et al. 2019, "MIS Compensation", for light from a picture (there without a floor).
     fn leave_to_lobes(&mut self) {
         let mean = narrow(self.integral() / (4.0 * core::f64::consts::PI));
-        for [_, _, _, strength] in &mut self.corners {
+        self.corners.par_iter_mut().for_each(|[.., strength]| {
             *strength = (*strength - mean).max(LEAST_WEIGHT * *strength);
-        }
+        });
         self.tabulate();
     }
 
@@ -114,7 +112,7 @@ impl Picture {
             })
             .collect();
         let table = Piecewise::new([width, height].map(|n| n as usize), |x, y| {
-            self.weight([x, y].map(crate::convert::id)) * sines[y]
+            self.weight([x, y].map(id)) * sines[y]
         });
         let whole = f64::from(self.axes[0].steps) * f64::from(self.axes[1].steps);
         self.mean = table.mean * f64::from(width) * f64::from(height) / whole;
@@ -228,7 +226,7 @@ impl Picture {
     #[inline]
     pub(super) fn sample(&self, u: [f32; 2]) -> ([f32; 2], Pixel, u32) {
         let (cell, u) = self.table.sample_cell(u);
-        let cell = cell.map(crate::convert::id);
+        let cell = cell.map(id);
         let corners = self.corners(cell);
         let within = self.within(cell, corners.map(|c| c[3]), u);
         let uv = [0, 1].map(|k| self.axes[k].place(cell[k], within[k]));
