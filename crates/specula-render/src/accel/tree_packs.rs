@@ -13,7 +13,7 @@
 use super::ball::Ball;
 use super::block::RayBlock;
 use super::frame::{AXES, FrameGroup, GROUP, SLACK, permuted};
-use super::kernel::{Kernel, STACK};
+use super::kernel::Kernel;
 use super::node::{self, Child, ChildKind, Node8, Packet8, WIDTH};
 use super::pack::Column;
 use super::traverse::{ClosestHit, GroupLeaves, Scene};
@@ -31,11 +31,16 @@ pub(super) const MOST_NODES: usize = 64;
 /// A set of lanes, as bits.
 type Lanes = u32;
 
-/// Children that wait to be visited.
-struct Stack {
-    entries: [(Child, Lanes); STACK],
-    /// Where each ray enters their boxes.
-    near: [Column; STACK],
+/// Children that a stack has room for from the start. Most trees need fewer, and room for the deepest would have to be cleared
+/// for every block.
+const USUAL_STACK: usize = 64;
+
+/// A child that waits to be visited.
+struct Entry {
+    /// Where each ray enters its box.
+    near: Column,
+    child: Child,
+    lanes: Lanes,
 }
 
 /// Rays in columns, and their closest hits so far.
@@ -102,7 +107,7 @@ fn cast<K: Kernel, const ANY: bool>(
     };
     let leaves = GroupLeaves { scene, instance };
     let is_large = interleaved::gains(scene);
-    let mut stack = None;
+    let mut stack = Vec::new();
     let mut groups = 0;
     for (nth, first) in (0..n.saturating_sub(GROUP - 1)).step_by(GROUP).enumerate() {
         let frames = FrameGroup::new(rays, first);
@@ -110,15 +115,12 @@ fn cast<K: Kernel, const ANY: bool>(
         if !is_coherent && scene.nodes.len() > MOST_NODES {
             continue;
         }
-        let stack = stack.get_or_insert(Stack {
-            entries: [(root, 0); STACK],
-            near: [Column::ZERO; STACK],
-        });
+        stack.reserve(USUAL_STACK);
         let mut pack = Pack::new(frames, first);
         if is_coherent {
-            pack.traverse::<K, ANY, true>(kernel, &leaves, root, stack);
+            pack.traverse::<K, ANY, true>(kernel, &leaves, root, &mut stack);
         } else {
-            pack.traverse::<K, ANY, false>(kernel, &leaves, root, stack);
+            pack.traverse::<K, ANY, false>(kernel, &leaves, root, &mut stack);
         }
         for lane in 0..GROUP {
             done(first + lane, pack.closest(lane, instance).hit());
@@ -233,18 +235,16 @@ impl<'a> Pack<'a> {
         kernel: K,
         leaves: &GroupLeaves<'_>,
         root: Child,
-        stack: &mut Stack,
+        stack: &mut Vec<Entry>,
     ) {
-        let mut top = 0;
+        stack.clear();
         let (mut current, mut lanes) = (root, self.frames.can_hit());
         loop {
             if Lanes::count_ones(lanes) < FEW {
                 self.go_alone::<K, ANY>(kernel, leaves, current, lanes);
             } else if current.is_node() {
                 let node = &leaves.scene.nodes[current.index()];
-                if let Some(next) =
-                    self.enter_children::<K, COHERENT>(kernel, node, lanes, stack, &mut top)
-                {
+                if let Some(next) = self.enter_children::<K, COHERENT>(kernel, node, lanes, stack) {
                     (current, lanes) = next;
                     continue;
                 }
@@ -257,17 +257,15 @@ impl<'a> Pack<'a> {
                 self.go_alone::<K, ANY>(kernel, leaves, current, lanes);
             }
             loop {
-                if top == 0 {
+                let Some(entry) = stack.pop() else {
                     return;
-                }
-                top -= 1;
-                let (child, among) = stack.entries[top];
-                lanes = among & kernel.are_at_most(&stack.near[top].0, &self.t_cull.0);
+                };
+                lanes = entry.lanes & kernel.are_at_most(&entry.near.0, &self.t_cull.0);
                 if ANY {
                     lanes &= !self.hit;
                 }
                 if lanes != 0 {
-                    current = child;
+                    current = entry.child;
                     break;
                 }
             }
@@ -281,8 +279,7 @@ impl<'a> Pack<'a> {
         kernel: K,
         node: &Node8,
         lanes: Lanes,
-        stack: &mut Stack,
-        top: &mut usize,
+        stack: &mut Vec<Entry>,
     ) -> Option<(Child, Lanes)> {
         let mut near = [Column::ZERO; WIDTH];
         let mut sets = [0; WIDTH];
@@ -313,9 +310,11 @@ impl<'a> Pack<'a> {
         let index = |key: u64| (key & 0xffff_ffff) as u32 as usize % WIDTH;
         for &key in others {
             let child = index(key);
-            stack.entries[*top] = (node.children[child], sets[child]);
-            stack.near[*top] = near[child];
-            *top += 1;
+            stack.push(Entry {
+                near: near[child],
+                child: node.children[child],
+                lanes: sets[child],
+            });
         }
         let child = index(*last);
         Some((node.children[child], sets[child]))

@@ -52,6 +52,20 @@ impl Part {
     }
 }
 
+/// Modules of the renderer that are one part each.
+const MODULES: [(&str, Part); 10] = [
+    ("bump", Part::Surfaces),
+    ("geometry", Part::Surfaces),
+    ("material", Part::Surfaces),
+    ("offset", Part::Surfaces),
+    ("texture", Part::Surfaces),
+    ("light", Part::Lights),
+    ("sampler", Part::RandomNumbers),
+    ("camera", Part::Film),
+    ("film", Part::Film),
+    ("renderer", Part::Film),
+];
+
 /// What a line says of itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Origin {
@@ -137,7 +151,8 @@ fn origin(symbol: &str, file: &str, function: &str) -> Origin {
     if file.contains("sobol_burley") {
         return Origin::Of(Part::RandomNumbers);
     }
-    if let Some(rest) = within("specula-bsdf/src/") {
+    let lobes = ["specula-bsdf/src/", "specula-lobes/src/"];
+    if let Some(rest) = lobes.iter().find_map(|name| within(name)) {
         return of_bsdf(rest, function);
     }
     let Some(rest) = within("specula-render/src/") else {
@@ -145,26 +160,15 @@ fn origin(symbol: &str, file: &str, function: &str) -> Origin {
     };
     let starts = |names: &[&str]| names.iter().any(|name| rest.starts_with(name));
     if starts(&["accel"]) {
-        // Of small scenes: `small::any`, mangled or not.
-        let is_any = ["occluded", "small::any", "small3any"];
+        // Of small scenes: `brute_force::any`, mangled or not.
+        let is_any = ["occluded", "brute_force::any", "brute_force3any"];
         return Origin::Of(match is_any.iter().any(|name| symbol.contains(name)) {
             true => Part::Any,
             false => Part::Closest,
         });
     }
-    if starts(&[
-        "geometry", "bump", "offset", "texture", "material", "bodies",
-    ]) {
-        return Origin::Of(Part::Surfaces);
-    }
-    if starts(&["light"]) {
-        return Origin::Of(Part::Lights);
-    }
-    if starts(&["sampler"]) {
-        return Origin::Of(Part::RandomNumbers);
-    }
-    if starts(&["camera", "film", "renderer"]) {
-        return Origin::Of(Part::Film);
+    if let Some((_, part)) = MODULES.iter().find(|(name, _)| rest.starts_with(name)) {
+        return Origin::Of(*part);
     }
     if starts(&["integrator"]) {
         return of_integrator(rest, function);
@@ -303,14 +307,48 @@ mod tests {
         assert_eq!(memory, 9);
         let small = |symbol| Cost {
             symbol,
-            file: "/w/crates/specula-render/src/accel/small.rs",
+            file: "/w/crates/specula-render/src/accel/brute_force.rs",
             ..clearing
         };
-        let costs = [small("accel::small::any::v3"), small("accel5small7closest")];
+        let costs = [
+            small("accel::brute_force::any::v3"),
+            small("accel11brute_force7closest"),
+        ];
         let found = super::totals(&costs, &mut sources);
         assert_eq!(
             [found[Part::Any as usize], found[Part::Closest as usize]],
             [9, 9]
+        );
+    }
+
+    #[test]
+    fn modules_are_those_of_the_renderer() {
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specula-render/src");
+        let others = [
+            "accel",
+            "accel/brute_force",
+            "integrator",
+            "picture",
+            "prepared",
+        ];
+        for name in MODULES.iter().map(|(name, _)| *name).chain(others) {
+            assert!(
+                sources.join(format!("{name}.rs")).exists() || sources.join(name).exists(),
+                "{name}"
+            );
+        }
+        let lobe = Cost {
+            symbol: "of",
+            file: "/w/crates/specula-lobes/src/glass.rs",
+            line: 3,
+            instructions: 7,
+        };
+        let mut sources = Sources::new(Path::new("/nowhere"));
+        let lines = vec![(1, "sample".to_owned())];
+        sources.functions.insert(lobe.file.to_owned(), lines);
+        assert_eq!(
+            super::totals(&[lobe], &mut sources)[Part::Sampling as usize],
+            7
         );
     }
 
