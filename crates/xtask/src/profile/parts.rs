@@ -324,19 +324,24 @@ mod tests {
     #[test]
     fn modules_are_those_of_the_renderer() {
         let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specula-render/src");
-        let others = [
-            "accel",
-            "accel/brute_force",
-            "integrator",
-            "picture",
-            "prepared",
-        ];
+        let others = ["accel", "integrator", "picture", "prepared"];
         for name in MODULES.iter().map(|(name, _)| *name).chain(others) {
             assert!(
                 sources.join(format!("{name}.rs")).exists() || sources.join(name).exists(),
                 "{name}"
             );
         }
+        let small = fs::read_to_string(sources.join("accel/brute_force.rs")).unwrap();
+        assert!(small.contains("\nfn any("), "shadow rays of small scenes");
+    }
+
+    #[test]
+    fn lobes_of_their_own_crate_are_bsdfs() {
+        assert!(
+            Path::new(env!("CARGO_MANIFEST_DIR"))
+                .join("../specula-lobes/src")
+                .exists()
+        );
         let lobe = Cost {
             symbol: "of",
             file: "/w/crates/specula-lobes/src/glass.rs",
