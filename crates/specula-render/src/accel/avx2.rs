@@ -77,9 +77,9 @@ impl Avx2 {
         // SAFETY: `self` proves that the machine has the features.
         unsafe {
             let groups = if self.is_wide {
-                intersect_packs_wide(self, scene, rays, hits)
+                intersect_packs_wide(scene, rays, hits)
             } else {
-                intersect_packs(self, scene, rays, hits)
+                intersect_packs(scene, rays, hits)
             };
             intersect_block(self, scene, (rays.0, rays.1, groups), hits);
         }
@@ -94,9 +94,9 @@ impl Avx2 {
         // SAFETY: `self` proves that the machine has the features.
         unsafe {
             let groups = if self.is_wide {
-                occluded_packs_wide(self, scene, rays, occluded)
+                occluded_packs_wide(scene, rays, occluded)
             } else {
-                occluded_packs(self, scene, rays, occluded)
+                occluded_packs(scene, rays, occluded)
             };
             occluded_block(self, scene, (rays.0, rays.1, groups), occluded);
         }
@@ -145,36 +145,30 @@ fn occluded_block(
 
 /// The packs' entries, for each set of instructions: those of AVX-512 hold sixteen lanes in a register.
 macro_rules! packs {
-    ($features:literal, $intersect:ident, $occluded:ident) => {
+    ($features:literal, $is_wide:literal, $intersect:ident, $occluded:ident) => {
         #[target_feature(enable = $features)]
-        fn $intersect(
-            kernel: Avx2,
-            scene: &Scene,
-            rays: (&RayBlock, usize),
-            hits: &mut [Option<Hit>],
-        ) -> u32 {
-            tree_packs::intersect(kernel, scene, rays, hits)
+        fn $intersect(scene: &Scene, rays: (&RayBlock, usize), hits: &mut [Option<Hit>]) -> u32 {
+            let is_wide = $is_wide;
+            tree_packs::intersect(Avx2 { is_wide }, scene, rays, hits)
         }
 
         #[target_feature(enable = $features)]
-        fn $occluded(
-            kernel: Avx2,
-            scene: &Scene,
-            rays: (&RayBlock, usize),
-            occluded: &mut [bool],
-        ) -> u32 {
-            tree_packs::occluded(kernel, scene, rays, occluded)
+        fn $occluded(scene: &Scene, rays: (&RayBlock, usize), occluded: &mut [bool]) -> u32 {
+            let is_wide = $is_wide;
+            tree_packs::occluded(Avx2 { is_wide }, scene, rays, occluded)
         }
     };
 }
 
 packs!(
     "avx2,bmi1,bmi2,lzcnt,popcnt",
+    false,
     intersect_packs,
     occluded_packs
 );
 packs!(
     "avx512f,avx512bw,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt",
+    true,
     intersect_packs_wide,
     occluded_packs_wide
 );
@@ -258,7 +252,13 @@ impl Kernel for Avx2 {
     #[inline(always)]
     fn are_at_most(self, a: &[f32; GROUP], b: &[f32; GROUP]) -> u32 {
         // SAFETY: `self` proves that the machine has the features.
-        unsafe { are_at_most(a, b) }
+        unsafe {
+            if self.is_wide {
+                are_at_most_wide(a, b)
+            } else {
+                are_at_most(a, b)
+            }
+        }
     }
 
     #[inline(always)]
@@ -330,6 +330,15 @@ fn are_at_most(a: &[f32; GROUP], b: &[f32; GROUP]) -> u32 {
         _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)).cast_unsigned()
     };
     half(0) | half(WIDTH) << WIDTH
+}
+
+/// The same in one register.
+#[target_feature(enable = "avx512f")]
+#[inline]
+fn are_at_most_wide(a: &[f32; GROUP], b: &[f32; GROUP]) -> u32 {
+    // SAFETY: the arrays are 64 bytes long.
+    let (a, b) = unsafe { (_mm512_loadu_ps(a.as_ptr()), _mm512_loadu_ps(b.as_ptr())) };
+    u32::from(_mm512_cmp_ps_mask::<_CMP_LE_OQ>(a, b))
 }
 
 /// Where the ray enters and leaves the boxes of children.

@@ -129,16 +129,11 @@ impl<'a> FrameGroup<'a> {
     /// axis.
     #[inline(always)]
     pub(super) fn is_coherent(&self) -> bool {
-        let d = &self.rays.direction;
-        let at = |c: &[f32; BLOCK], k: usize| c[(self.first + k) % BLOCK].to_bits();
-        let mut apart = u32::from(self.axis[0] == NO_AXIS);
+        let mut apart = self.axis[0] == NO_AXIS;
         for k in 1..GROUP {
-            let turned = (at(&d.x, k) ^ at(&d.x, 0))
-                | (at(&d.y, k) ^ at(&d.y, 0))
-                | (at(&d.z, k) ^ at(&d.z, 0));
-            apart |= (turned >> 31) | u32::from(self.axis[k] != self.axis[0]);
+            apart |= self.axis[k] != self.axis[0];
         }
-        apart == 0
+        !apart && lead_to_same_sides(self.rays, self.first)
     }
 
     /// Which rays can hit, as bits.
@@ -166,6 +161,21 @@ impl<'a> FrameGroup<'a> {
             shear: [self.shear[0][k], self.shear[1][k], near_scale[z]],
         })
     }
+}
+
+/// Whether the directions of a group have the same signs.
+///
+/// * `first`: index of its first ray.
+#[inline(always)]
+pub(super) fn lead_to_same_sides(rays: &RayBlock, first: usize) -> bool {
+    let d = &rays.direction;
+    let at = |c: &[f32; BLOCK], k: usize| c[(first + k) % BLOCK].to_bits();
+    let mut turned = 0;
+    for k in 1..GROUP {
+        turned |=
+            (at(&d.x, k) ^ at(&d.x, 0)) | (at(&d.y, k) ^ at(&d.y, 0)) | (at(&d.z, k) ^ at(&d.z, 0));
+    }
+    turned >> 31 == 0
 }
 
 /// The axis in which the direction is greatest; `None` where the ray cannot hit.

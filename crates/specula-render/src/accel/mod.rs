@@ -31,6 +31,7 @@ mod collapse;
 mod curve;
 mod flat;
 mod frame;
+mod frustum;
 mod group;
 mod huge_pages;
 mod input;

@@ -142,18 +142,18 @@ impl Packet8 {
         self.primitives[lane] = primitive;
     }
 
-    /// The lanes that hold triangles, which come first.
+    /// The lanes that hold triangles, as bits.
     #[inline(always)]
-    pub(super) fn occupied_lanes(&self) -> impl Iterator<Item = usize> + use<> {
+    pub(super) fn occupied_lanes(&self) -> u32 {
         let [a, b, _] = &self.vertices;
-        let mut apart = 0_u32;
+        let mut apart = 0;
         for lane in 0..WIDTH {
             let is_point = (a[0].0[lane] == b[0].0[lane])
                 & (a[1].0[lane] == b[1].0[lane])
                 & (a[2].0[lane] == b[2].0[lane]);
             apart |= u32::from(!is_point) << lane;
         }
-        0..(u32::BITS - apart.leading_zeros()) as usize % (WIDTH + 1)
+        apart
     }
 
     /// The triangles in occupied lanes, with their indices.

@@ -30,8 +30,35 @@ pub(super) const PACK: usize = 16;
 #[repr(C, align(64))]
 pub(super) struct Column(pub(super) [f32; PACK]);
 
+/// Values combined to one, half by half: few operations wait for one another.
+macro_rules! reduced {
+    ($values:expr, $combine:path) => {{
+        let (values, mut eight, mut four) = (&$values, [0.0; 8], [0.0; 4]);
+        for lane in 0..8 {
+            eight[lane] = $combine(values[lane], values[lane + 8]);
+        }
+        for lane in 0..4 {
+            four[lane] = $combine(eight[lane], eight[lane + 4]);
+        }
+        let [a, b, c, d] = four;
+        $combine($combine(a, c), $combine(b, d))
+    }};
+}
+
 impl Column {
     pub(super) const ZERO: Self = Self([0.0; PACK]);
+
+    /// The greatest of its values.
+    #[inline(always)]
+    pub(super) fn greatest(&self) -> f32 {
+        reduced!(self.0, triangle::max)
+    }
+
+    /// The least of its values.
+    #[inline(always)]
+    pub(super) fn least(&self) -> f32 {
+        reduced!(self.0, triangle::min)
+    }
 }
 
 impl Index<usize> for Column {

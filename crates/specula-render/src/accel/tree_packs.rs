@@ -1,18 +1,23 @@
 //! Rays through a tree, sixteen at a time. In large trees coherent ones: camera rays of one pixel, and shadow rays of
 //! neighbours to one light. In trees of a few nodes, any.
 //!
-//! Every box and every triangle is tested against all rays of a pack at once, one ray to a lane. Which of them go on is a
-//! set of lanes. Where few are left, they go on alone, from that child. In large trees [`super::interleaved`] is faster for
-//! rays that part early: after the first pack of such, it takes the rest of the block. Tests are operation by operation those of
-//! [`super::traverse`], whose boxes cull no hit: the answers are equal bit for bit.
+//! Boxes and triangles are tested against all rays of a pack at once, one ray to a lane. Which of them go on is a set of
+//! lanes. Where few are left, they go on alone, from that child. Of coherent rays only those boxes and triangles are tested
+//! so that what bounds all of them reaches ([`super::frustum`]), eight of which are told at once. In large trees
+//! [`super::interleaved`] is faster for rays that part early: after the first pack of such, it takes the rest of the block.
+//! Tests are operation by operation those of [`super::traverse`], whose boxes cull no hit: the answers are equal bit for
+//! bit.
 #![allow(
     clippy::needless_range_loop,
     reason = "an index below the arrays' length is what the compiler makes vectors of"
 )]
 
+mod coherent;
+
 use super::ball::Ball;
 use super::block::RayBlock;
-use super::frame::{AXES, FrameGroup, GROUP, SLACK, permuted};
+use super::frame::{self, AXES, FrameGroup, GROUP, SLACK, permuted};
+use super::frustum::Frustum;
 use super::kernel::Kernel;
 use super::node::{self, Child, ChildKind, Node8, Packet8, WIDTH};
 use super::pack::Column;
@@ -20,8 +25,8 @@ use super::traverse::{ClosestHit, GroupLeaves, Scene};
 use super::triangle::{self, max, min};
 use super::{Hit, interleaved};
 
-/// Lanes below which rays go on alone. Measured.
-const FEW: u32 = 3;
+/// Lanes below which rays go on alone: of incoherent ones, and of coherent ones. Measured.
+const FEW: [u32; 2] = [3, 2];
 /// How often rays of a pack may go on alone in a large tree, until the rest of their block is interleaved instead.
 /// Measured.
 const MOST_PARTED: u32 = 24;
@@ -35,7 +40,7 @@ type Lanes = u32;
 /// for every block.
 const USUAL_STACK: usize = 64;
 
-/// A child that waits to be visited.
+/// A child that waits to be visited by rays of an incoherent pack.
 struct Entry {
     /// Where each ray enters its box.
     near: Column,
@@ -62,6 +67,8 @@ struct Pack<'a> {
     shear: [Column; 3],
     t: Column,
     t_cull: Column,
+    /// The greatest of those.
+    t_most: f32,
     u: Column,
     v: Column,
     primitive: [u32; GROUP],
@@ -107,20 +114,24 @@ fn cast<K: Kernel, const ANY: bool>(
     };
     let leaves = GroupLeaves { scene, instance };
     let is_large = interleaved::gains(scene);
-    let mut stack = Vec::new();
+    let (mut stack, mut candidates) = (Vec::new(), Vec::with_capacity(USUAL_STACK));
     let mut groups = 0;
     for (nth, first) in (0..n.saturating_sub(GROUP - 1)).step_by(GROUP).enumerate() {
-        let frames = FrameGroup::new(rays, first);
-        let is_coherent = frames.is_coherent();
-        if !is_coherent && scene.nodes.len() > MOST_NODES {
+        let takes_any = scene.nodes.len() <= MOST_NODES;
+        if !takes_any && !frame::lead_to_same_sides(rays, first) {
             continue;
         }
-        stack.reserve(USUAL_STACK);
+        let frames = FrameGroup::new(rays, first);
+        let is_coherent = frames.is_coherent();
+        if !takes_any && !is_coherent {
+            continue;
+        }
         let mut pack = Pack::new(frames, first);
         if is_coherent {
-            pack.traverse::<K, ANY, true>(kernel, &leaves, root, &mut stack);
+            pack.traverse_together::<K, ANY>(kernel, &leaves, root, &mut candidates);
         } else {
-            pack.traverse::<K, ANY, false>(kernel, &leaves, root, &mut stack);
+            stack.reserve(USUAL_STACK);
+            pack.traverse::<K, ANY>(kernel, &leaves, root, &mut stack);
         }
         for lane in 0..GROUP {
             done(first + lane, pack.closest(lane, instance).hit());
@@ -195,6 +206,7 @@ impl<'a> Pack<'a> {
             shear,
             t,
             t_cull: Column::ZERO,
+            t_most: 0.0,
             u: Column::ZERO,
             v: Column::ZERO,
             primitive: [0; GROUP],
@@ -211,6 +223,7 @@ impl<'a> Pack<'a> {
         for lane in 0..GROUP {
             self.t_cull.0[lane] = self.t.0[lane] * SLACK;
         }
+        self.t_most = self.t_cull.greatest();
     }
 
     /// The closest hit of a ray so far.
@@ -229,8 +242,9 @@ impl<'a> Pack<'a> {
         )
     }
 
+    /// Visits the tree with incoherent rays.
     #[inline(always)]
-    fn traverse<K: Kernel, const ANY: bool, const COHERENT: bool>(
+    fn traverse<K: Kernel, const ANY: bool>(
         &mut self,
         kernel: K,
         leaves: &GroupLeaves<'_>,
@@ -240,21 +254,14 @@ impl<'a> Pack<'a> {
         stack.clear();
         let (mut current, mut lanes) = (root, self.frames.can_hit());
         loop {
-            if Lanes::count_ones(lanes) < FEW {
-                self.go_alone::<K, ANY>(kernel, leaves, current, lanes);
-            } else if current.is_node() {
+            if current.is_node() && Lanes::count_ones(lanes) >= FEW[0] {
                 let node = &leaves.scene.nodes[current.index()];
-                if let Some(next) = self.enter_children::<K, COHERENT>(kernel, node, lanes, stack) {
+                if let Some(next) = self.enter_children(kernel, node, lanes, stack) {
                     (current, lanes) = next;
                     continue;
                 }
-            } else if current.kind() == ChildKind::Packet {
-                let packet = &leaves.scene.packets[current.index()];
-                self.offer_triangles::<K, ANY, COHERENT>(kernel, packet, lanes);
-            } else if let Some((ball, primitive)) = leaves.scene.ball(current) {
-                self.offer_ball::<K, ANY>(kernel, &ball, primitive, lanes);
             } else {
-                self.go_alone::<K, ANY>(kernel, leaves, current, lanes);
+                self.visit::<K, ANY>(kernel, leaves, current, lanes, None);
             }
             loop {
                 let Some(entry) = stack.pop() else {
@@ -272,9 +279,40 @@ impl<'a> Pack<'a> {
         }
     }
 
+    /// Visits a leaf, or any child with few rays.
+    ///
+    /// * `frustum`: of coherent rays.
+    #[inline(always)]
+    fn visit<K: Kernel, const ANY: bool>(
+        &mut self,
+        kernel: K,
+        leaves: &GroupLeaves<'_>,
+        child: Child,
+        lanes: Lanes,
+        frustum: Option<&Frustum>,
+    ) {
+        let scene = leaves.scene;
+        if lanes.count_ones() < FEW[usize::from(frustum.is_some())] {
+            self.go_alone::<K, ANY>(kernel, leaves, child, lanes);
+        } else if child.kind() == ChildKind::Packet {
+            let packet = &scene.packets[child.index()];
+            if let Some(frustum) = frustum {
+                let which = frustum.triangles(kernel, packet, self.t_most);
+                self.offer_triangles::<K, ANY, true>(kernel, packet, lanes, which);
+            } else {
+                let which = packet.occupied_lanes();
+                self.offer_triangles::<K, ANY, false>(kernel, packet, lanes, which);
+            }
+        } else if let Some((ball, primitive)) = scene.ball(child) {
+            self.offer_ball::<K, ANY>(kernel, &ball, primitive, lanes);
+        } else {
+            self.go_alone::<K, ANY>(kernel, leaves, child, lanes);
+        }
+    }
+
     /// Finds the children whose boxes rays hit, pushes all but the nearest, the farthest first, and returns that.
     #[inline(always)]
-    fn enter_children<K: Kernel, const COHERENT: bool>(
+    fn enter_children<K: Kernel>(
         &self,
         kernel: K,
         node: &Node8,
@@ -289,7 +327,7 @@ impl<'a> Pack<'a> {
             if node.bounds[0].0[child] > node.bounds[1].0[child] {
                 break;
             }
-            let far = self.enter_box::<COHERENT>(node, child, &mut near[child]);
+            let far = self.enter_box::<false>(node, child, &mut near[child]);
             let set = lanes & kernel.are_at_most(&near[child].0, &far.0);
             if set == 0 {
                 continue;
@@ -346,16 +384,21 @@ impl<'a> Pack<'a> {
         far
     }
 
-    /// Updates the closest hits by the triangles of a packet.
+    /// Updates the closest hits by triangles of a packet.
+    ///
+    /// * `which`: as bits.
     #[inline(always)]
     fn offer_triangles<K: Kernel, const ANY: bool, const COHERENT: bool>(
         &mut self,
         kernel: K,
         packet: &Packet8,
         lanes: Lanes,
+        mut which: u32,
     ) {
         let mut open = lanes;
-        for k in packet.occupied_lanes() {
+        while which != 0 {
+            let k = which.trailing_zeros() as usize % WIDTH;
+            which &= which - 1;
             let [a, b, c] = &packet.vertices;
             let (a, b, c) = (
                 self.sheared::<COHERENT>(a, k),
@@ -364,12 +407,16 @@ impl<'a> Pack<'a> {
             );
             let at = |p: &[Column; 3], lane: usize| [p[0].0[lane], p[1].0[lane], p[2].0[lane]];
             let (a, b, c) = (&a, &b, &c);
-            let mut outside = Column::ZERO;
+            let (mut lo, mut hi) = (Column::ZERO, Column::ZERO);
             for lane in 0..GROUP {
-                let uvw = triangle::edge_functions(at(a, lane), at(b, lane), at(c, lane));
-                outside.0[lane] = if triangle::inside(uvw) { 0.0 } else { 1.0 };
+                let [u, v, w] = triangle::edge_functions(at(a, lane), at(b, lane), at(c, lane));
+                lo.0[lane] = min(u, min(v, w));
+                hi.0[lane] = max(u, max(v, w));
             }
-            let inside = open & kernel.are_at_most(&outside.0, &Column::ZERO.0);
+            // See `triangle::same_sign`.
+            let zero = &Column::ZERO.0;
+            let inside = kernel.are_at_most(zero, &lo.0) | kernel.are_at_most(&hi.0, zero);
+            let inside = open & inside;
             if inside == 0 {
                 continue;
             }

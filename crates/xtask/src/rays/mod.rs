@@ -22,9 +22,9 @@ use crate::versus::statistics::median;
 /// What is measured.
 #[derive(Args)]
 pub(crate) struct Rays {
-    /// A Python with embreex 4.4; without it only our side is measured
+    /// Embree 4's shared library, libembree4.so; without it only our side is measured
     #[arg(long, value_name = "FILE")]
-    python: Option<PathBuf>,
+    embree: Option<PathBuf>,
     /// Triangles of the meshes; below a hundred a room with two boxes
     #[arg(
         long,
@@ -57,8 +57,16 @@ struct Row {
 struct Cell {
     what: &'static str,
     specula: f64,
-    /// As measured, and of the same rays where there is nothing to hit.
-    peer: Option<[f64; 2]>,
+    /// In each of [`peer::CALLS`].
+    peer: Option<[f64; peer::CALLS.len()]>,
+}
+
+impl Cell {
+    /// Of the peer with packets of sixteen, whichever hint makes them faster.
+    fn in_packets(&self) -> Option<f64> {
+        self.peer
+            .map(|[_, incoherent, coherent]| incoherent.min(coherent))
+    }
 }
 
 /// Measures, prints and perhaps writes.
@@ -101,11 +109,11 @@ fn measure(root: &Path, rays: &Rays, count: f64, folder: &Path) -> Result<Row> {
     let sets = sets::sets(&mesh, &accel);
     let mut peer = None;
     let mut peer_build = None;
-    if let Some(python) = &rays.python {
+    if let Some(library) = &rays.embree {
         peer::write(folder, &mesh, &sets)?;
-        let script = peer::script(root);
-        let single = Peer::start(python, &script, folder, 1)?.build[1];
-        let double = Peer::start(python, &script, folder, 2)?;
+        let program = peer::compile(&peer::source(root), folder)?;
+        let single = Peer::start(&program, library, folder, 1)?.build[1];
+        let double = Peer::start(&program, library, folder, 2)?;
         peer_build = Some([single, double.build[1]]);
         peer = Some(double);
     }
@@ -123,14 +131,15 @@ fn measure(root: &Path, rays: &Rays, count: f64, folder: &Path) -> Result<Row> {
 }
 
 fn cell(accel: &Accel, set: &Set, mut peer: Option<&mut Peer>, runs: usize) -> Result<Cell> {
-    let (mut specula, mut theirs, mut away) = (Vec::new(), Vec::new(), Vec::new());
+    let mut specula = Vec::new();
+    let mut theirs = peer::CALLS.map(|_| Vec::new());
     for _ in 0..runs {
         let (seconds, hits) = trace(accel, set);
         specula.push(seconds);
-        if let Some(peer) = &mut peer {
-            let (seconds, found) = peer.trace(set)?;
+        let Some(peer) = &mut peer else { continue };
+        for (call, theirs) in peer::CALLS.iter().zip(&mut theirs) {
+            let (seconds, found) = peer.trace(set, call)?;
             theirs.push(seconds);
-            away.push(peer.trace_nothing(set)?);
             // Rays along edges may differ.
             if (hits as f64 - found).abs() > 1e-3 * set.rays.len() as f64 {
                 return Err(format!("{}: {hits} hits here, {found} there", set.what).into());
@@ -141,7 +150,7 @@ fn cell(accel: &Accel, set: &Set, mut peer: Option<&mut Peer>, runs: usize) -> R
     Ok(Cell {
         what: set.what,
         specula: per_ray(&specula),
-        peer: peer.map(|_| [per_ray(&theirs), per_ray(&away)]),
+        peer: peer.map(|_| theirs.each_ref().map(|seconds| per_ray(seconds))),
     })
 }
 
@@ -162,21 +171,19 @@ fn trace(accel: &Accel, set: &Set) -> (f64, usize) {
     (processor_time() - start, count)
 }
 
-/// Seconds that this thread has run; the clock's where the system does not tell.
+/// Seconds that this thread has run, to the nanosecond.
+#[cfg(unix)]
 fn processor_time() -> f64 {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds = text
-        .split_whitespace()
-        .next()
-        .and_then(|n| n.parse::<f64>().ok());
-    nanoseconds.map_or_else(
-        || {
-            let now = std::time::SystemTime::now();
-            now.duration_since(std::time::UNIX_EPOCH)
-                .map_or(0.0, |d| d.as_secs_f64())
-        },
-        |n| n * 1e-9,
-    )
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+}
+
+/// The clock's seconds.
+#[cfg(not(unix))]
+fn processor_time() -> f64 {
+    let now = std::time::SystemTime::now();
+    now.duration_since(std::time::UNIX_EPOCH)
+        .map_or(0.0, |d| d.as_secs_f64())
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Embree through the Python package `embreex`, as a process that answers.
+//! Embree from its shared library, through a small C program that answers.
 
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader, BufWriter, Write};
@@ -52,22 +52,43 @@ pub(super) fn write(folder: &Path, mesh: &Mesh, sets: &[Set]) -> Result<()> {
     Ok(())
 }
 
+/// How rays are handed to Embree: how many a call, and what it is told of them.
+pub(super) const CALLS: [&str; 3] = ["1 incoherent", "16 incoherent", "16 coherent"];
+
+/// Compiles the program, with optimisation, into `folder`.
+pub(super) fn compile(source: &Path, folder: &Path) -> Result<PathBuf> {
+    fs::create_dir_all(folder)?;
+    let program = folder.join("embree_peer");
+    let status = Command::new("cc")
+        .args(["-std=c11", "-O3", "-march=native", "-Wall", "-Wextra", "-o"])
+        .args([&program, source])
+        .arg("-ldl")
+        .status()
+        .map_err(|e| format!("cc: {e}"))?;
+    if status.success() {
+        Ok(program)
+    } else {
+        Err(format!("cc: {status}").into())
+    }
+}
+
 impl Peer {
     /// Starts it on what [`write()`] left in `folder`; its tree is built by `threads`.
+    ///
+    /// * `library`: Embree 4, `libembree4.so`.
     pub(super) fn start(
-        python: &Path,
-        script: &Path,
+        program: &Path,
+        library: &Path,
         folder: &Path,
         threads: usize,
     ) -> Result<Self> {
-        let mut child = Command::new(python)
-            .arg(script)
-            .arg(folder)
+        let mut child = Command::new(program)
+            .args([library, folder])
             .arg(threads.to_string())
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
-            .map_err(|e| format!("{}: {e}", python.display()))?;
+            .map_err(|e| format!("{}: {e}", program.display()))?;
         let (Some(input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
             return Err("the peer has no pipes".into());
         };
@@ -85,15 +106,11 @@ impl Peer {
     }
 
     /// Seconds of processor for a set, and how many rays hit.
-    pub(super) fn trace(&mut self, set: &Set) -> Result<(f64, f64)> {
-        let query = if set.any { "OCCLUDED" } else { "INTERSECT" };
-        self.ask(&format!("{} {query}", set.name))
-    }
-
-    /// Seconds of processor for the rays of a set where there is nothing to hit.
-    pub(super) fn trace_nothing(&mut self, set: &Set) -> Result<f64> {
-        let query = if set.any { "OCCLUDED" } else { "INTERSECT" };
-        Ok(self.ask(&format!("{} {query} away", set.name))?.0)
+    ///
+    /// * `call`: one of [`CALLS`].
+    pub(super) fn trace(&mut self, set: &Set, call: &str) -> Result<(f64, f64)> {
+        let query = if set.any { "any" } else { "closest" };
+        self.ask(&format!("{} {query} {call}", set.name))
     }
 
     fn ask(&mut self, question: &str) -> Result<(f64, f64)> {
@@ -123,7 +140,7 @@ impl Drop for Peer {
     }
 }
 
-/// Where the script is.
-pub(super) fn script(root: &Path) -> PathBuf {
-    root.join("data/rays/embree_peer.py")
+/// Where the program's source is.
+pub(super) fn source(root: &Path) -> PathBuf {
+    root.join("data/rays/embree_peer.c")
 }

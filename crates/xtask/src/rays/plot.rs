@@ -25,7 +25,7 @@ impl Axes {
     fn of(rows: &[Row]) -> Self {
         let sizes = || rows.iter().map(|row| row.triangles as f64);
         let costs = rows.iter().flat_map(|row| &row.cells);
-        let highest = costs.map(|c| c.specula.max(c.peer.map_or(0.0, |[p, l]| p - l)));
+        let highest = costs.map(|c| c.specula.max(c.in_packets().unwrap_or(0.0)));
         Self {
             least: sizes().fold(f64::INFINITY, f64::min) / 1.5,
             most: sizes().fold(0.0, f64::max) * 1.5,
@@ -43,7 +43,7 @@ impl Axes {
     }
 }
 
-/// Writes the figure. Lines: Specula's. Crosses: the peer without its layer.
+/// Writes the figure. Lines: Specula's. Crosses: the peer's packets.
 pub(super) fn draw(path: &Path, rows: &[Row]) -> Result<()> {
     Ok(std::fs::write(path, svg(rows))?)
 }
@@ -69,8 +69,8 @@ fn svg(rows: &[Row]) -> String {
             "<polyline points=\"{points}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"/>"
         );
         for row in rows {
-            if let Some([measured, layer]) = row.cells[kind].peer {
-                let (x, y) = (axes.x(row.triangles as f64), axes.y(measured - layer));
+            if let Some(time) = row.cells[kind].in_packets() {
+                let (x, y) = (axes.x(row.triangles as f64), axes.y(time));
                 cross(&mut svg, [x, y], colour);
             }
         }
@@ -94,7 +94,7 @@ fn svg(rows: &[Row]) -> String {
             &mut svg,
             [AREA[0] + 40.0, y + 4.0],
             "start",
-            "the same, Embree",
+            "the same, Embree, sixteen a call",
         );
     }
     svg + "</svg>\n"
@@ -172,7 +172,7 @@ mod tests {
     use super::super::Cell;
     use super::*;
 
-    fn row(triangles: usize, specula: f64, peer: Option<[f64; 2]>) -> Row {
+    fn row(triangles: usize, specula: f64, peer: Option<[f64; 3]>) -> Row {
         Row {
             triangles,
             bytes: 0.0,
@@ -189,7 +189,10 @@ mod tests {
 
     #[test]
     fn every_row_is_a_point_and_every_peer_a_cross() {
-        let rows = [row(100, 50.0, Some([90.0, 10.0])), row(10_000, 100.0, None)];
+        let rows = [
+            row(100, 50.0, Some([90.0, 80.0, 70.0])),
+            row(10_000, 100.0, None),
+        ];
         let text = svg(&rows);
         let line = text.lines().find(|l| l.starts_with("<polyline")).unwrap();
         assert_eq!(line.matches(',').count(), 2, "{line}");
