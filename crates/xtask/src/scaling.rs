@@ -1,5 +1,7 @@
-//! `cargo xtask scaling`: what a second thread gains, and what a sample costs against the number of
+//! `cargo xtask scaling`: what a second thread gains, what more would, and what a sample costs against the number of
 //! triangles.
+
+mod schedule;
 
 use std::fmt::Write;
 use std::fs;
@@ -38,6 +40,9 @@ pub(crate) struct Scaling {
     /// Measure the threads alone, and fail below a gain of 1.9: on a machine that does nothing else
     #[arg(long)]
     threads: bool,
+    /// Tell instead what up to 64 threads would gain, from the time of each tile on one
+    #[arg(long, conflicts_with = "threads")]
+    tiles: bool,
     /// Write docs/profile/triangles.svg
     #[arg(long)]
     publish: bool,
@@ -53,9 +58,12 @@ struct Point {
 
 /// Measures, prints and samples.
 pub(crate) fn run(root: &Path, scaling: &Scaling) -> Result<()> {
-    let program = workspace::program(root, scaling.specula.as_deref())?;
     fs::create_dir_all(&scaling.out)?;
     let out = fs::canonicalize(&scaling.out)?;
+    if scaling.tiles {
+        return tiles(root, scaling, &out);
+    }
+    let program = workspace::program(root, scaling.specula.as_deref())?;
     if scaling.threads {
         return threads(root, scaling, &program, &out);
     }
@@ -109,6 +117,18 @@ fn threads(root: &Path, scaling: &Scaling, program: &Path, out: &Path) -> Result
         true => Ok(()),
         false => Err(format!("two threads gain {least:.3}, less than {LEAST_GAIN}").into()),
     }
+}
+
+/// What more threads would gain in each scene, in passes as those of a short render.
+fn tiles(root: &Path, scaling: &Scaling, out: &Path) -> Result<()> {
+    print!("{}", schedule::head());
+    for scene in &SCENES {
+        let file = scene.prepare(root, out)?;
+        let passes = [1, scaling.spp.saturating_sub(1).max(1)];
+        let tiles = schedule::Tiles::measure(&file, &passes)?;
+        print!("{}", schedule::row(scene.name, &tiles));
+    }
+    Ok(())
 }
 
 /// The cost of a sample for each mesh, median of the rounds.

@@ -173,14 +173,14 @@ fn trace(accel: &Accel, set: &Set) -> (f64, usize) {
 
 /// Seconds that this thread has run, to the nanosecond.
 #[cfg(unix)]
-fn processor_time() -> f64 {
+pub(crate) fn processor_time() -> f64 {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
     time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
 }
 
 /// The clock's seconds.
 #[cfg(not(unix))]
-fn processor_time() -> f64 {
+pub(crate) fn processor_time() -> f64 {
     let now = std::time::SystemTime::now();
     now.duration_since(std::time::UNIX_EPOCH)
         .map_or(0.0, |d| d.as_secs_f64())
