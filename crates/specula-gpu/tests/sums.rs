@@ -67,7 +67,7 @@ fn moved(digits: i128, places: i32) -> i128 {
 }
 
 fn fixed(x: f32) -> i64 {
-    (f64::from(x).clamp(-67_108_864.0, 67_108_864.0) * (1_u64 << 30) as f64).round() as i64
+    (f64::from(x).clamp(-256.0, 256.0) * (1_u64 << 30) as f64).round() as i64
 }
 
 /// What the sums are, by their definition.

@@ -35,41 +35,43 @@ fn light_node_importance(at: u32, position: vec3f, normal: vec3f) -> f32 {
     if distance_squared <= radius_squared {
         return light_node_ratio(intensity, radius_squared);
     }
-    let to_centre = d * (1.0 / sqrt(distance_squared));
-    let sine_squared = radius_squared / distance_squared;
-    let sine = sqrt(sine_squared);
-    let cosine = sqrt(max(1.0 - sine_squared, 0.0));
+    let sphere = vec2f(sqrt(max(distance_squared - radius_squared, 0.0)), radius);
     var factor = 1.0;
     if any(normal != vec3f(0.0)) {
-        let received = light_node_minus(dot(normal, to_centre), sine, cosine);
-        if received <= -LIGHT_NODE_SLACK {
+        let received = light_node_minus(light_node_angle(dot(normal, d), distance_squared), sphere);
+        let cosine = select(received.x / distance_squared, 1.0, received.y < 0.0);
+        if cosine <= -LIGHT_NODE_SLACK {
             return 0.0;
         }
-        factor = max(received, LIGHT_NODE_SLACK);
+        factor = max(cosine, LIGHT_NODE_SLACK);
     }
     let cosine_o = number(at + 7u);
     // Spheres and points emit in every direction alike.
     if cosine_o > -1.0 {
-        let along = -dot(vector(at + 4u), to_centre);
+        let along = -dot(vector(at + 4u), d);
         let two_sided = (word(at + 10u) & 1u) != 0u;
         let sine_o = sqrt(max(1.0 - cosine_o * cosine_o, 0.0));
-        let outside = light_node_minus(select(along, abs(along), two_sided), sine_o, cosine_o);
-        let sent = light_node_minus(outside, sine, cosine);
-        if sent <= number(at + 8u) - LIGHT_NODE_SLACK {
+        let angle = light_node_angle(select(along, abs(along), two_sided), distance_squared);
+        let outside = light_node_minus(angle, vec2f(cosine_o, sine_o));
+        let sent = light_node_minus(outside, sphere);
+        let cosine = select(sent.x / distance_squared, 1.0, min(outside.y, sent.y) < 0.0);
+        if cosine <= number(at + 8u) - LIGHT_NODE_SLACK {
             return 0.0;
         }
-        factor *= max(sent, LIGHT_NODE_SLACK);
+        factor *= max(cosine, LIGHT_NODE_SLACK);
     }
     return light_node_ratio(intensity * factor, distance_squared);
 }
 
-/// `cos(max(a - b, 0))` of angles in `[0, pi]`.
-/// Twin: specula-render/src/light/node.rs, minus_clamped.
-fn light_node_minus(cosine_a: f32, sine_b: f32, cosine_b: f32) -> f32 {
-    if cosine_a >= cosine_b {
-        return 1.0;
-    }
-    return cosine_a * cosine_b + sqrt(max(1.0 - cosine_a * cosine_a, 0.0)) * sine_b;
+/// Cosine and sine of an angle in `[0, pi]`, both times the distance.
+fn light_node_angle(cosine: f32, distance_squared: f32) -> vec2f {
+    return vec2f(cosine, sqrt(max(distance_squared - cosine * cosine, 0.0)));
+}
+
+/// Cosine and sine of `a - b`, of angles in `[0, pi]`, times the factors of both: the sine is negative where `a < b`.
+/// Twin: specula-render/src/light/node.rs, minus.
+fn light_node_minus(a: vec2f, b: vec2f) -> vec2f {
+    return vec2f(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y);
 }
 
 /// A quotient of two values that are not negative, at most `LIGHT_NODE_MOST`.

@@ -100,14 +100,14 @@ fn sums_add(sum: vec4u, x: vec2u, places: i32, negative: bool) -> vec4u {
 }
 
 /// Adds a float in units of `2^-30`, rounded, halves away from 0: low word, high word of the sum. NaN counts as 0,
-/// and values beyond `2^26` count as that.
+/// and values beyond `2^8` count as that.
 fn sums_add_fixed(sum: vec2u, bits: u32) -> vec2u {
     let exponent = sums_exponent(bits);
     let digits = sums_digits(bits);
     if exponent == 255u && digits != 0x800000u {
         return sum;
     }
-    var units = vec2u(0u, 1u << 24u);
+    var units = vec2u(0u, 1u << 6u);
     if exponent < 120u {
         let places = 120u - exponent;
         // Beyond 24 places less than a half is left.
@@ -115,7 +115,7 @@ fn sums_add_fixed(sum: vec2u, bits: u32) -> vec2u {
         if places <= 24u {
             units.x = (digits + (1u << (places - 1u))) >> places;
         }
-    } else if exponent < 153u {
+    } else if exponent < 135u {
         units = sums_up(vec2u(digits, 0u), exponent - 120u).xy;
     }
     if (bits >> 31u) != 0u {

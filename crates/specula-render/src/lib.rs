@@ -11,6 +11,7 @@ mod film;
 mod flat;
 mod geometry;
 mod goal;
+mod huge_pages;
 mod integrator;
 mod layout;
 mod light;

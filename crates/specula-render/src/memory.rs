@@ -12,11 +12,12 @@ use specula_scene::scene::{
 };
 
 use crate::accel::predicted;
-use crate::film::BYTES_PER_PIXEL;
+use crate::film::{BYTES_PER_TILE, TILE};
 use crate::geometry::has_own_space;
 use crate::light::{BYTES_PER_EMITTER, BYTES_PER_FAR_PIXEL};
 use crate::options::RenderOptions;
 use crate::picture::{ALL_CHANNELS, blocks_size};
+use crate::prepared::asked_crop;
 use crate::texture::{moment_pixels, pyramid_pixels};
 
 /// The program itself, as it is before a scene is read.
@@ -91,8 +92,10 @@ impl MemoryEstimate {
         estimate.add_geometry(scene, options, threads, &mut held);
         estimate.add_lights(scene, &mut held);
         estimate.preparing = held.peak;
-        let pixels = film_pixels(scene, options);
-        estimate.film = BYTES_PER_PIXEL * pixels;
+        let size = film_size(scene, options);
+        let pixels = size.iter().product::<u64>();
+        let tiles = size.map(|side| side.div_ceil(u64::from(TILE)));
+        estimate.film = BYTES_PER_TILE * tiles.iter().product::<u64>();
         let [width, _] = options.resolution.unwrap_or(scene.film.resolution);
         // A picture's pixel developed, and once more for the file's channels.
         estimate.pictures = 2 * ALL_CHANNELS * pixels + blocks_size(width, threads);
@@ -340,23 +343,12 @@ fn environment_images(scene: &Scene) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Pixels that are rendered.
-fn film_pixels(scene: &Scene, options: &RenderOptions) -> u64 {
-    let area = |[x0, x1, y0, y1]: [u32; 4]| {
-        u64::from(x1.saturating_sub(x0)) * u64::from(y1.saturating_sub(y0))
-    };
+/// Columns and rows that are rendered.
+fn film_size(scene: &Scene, options: &RenderOptions) -> [u64; 2] {
     let [width, height] = options.resolution.unwrap_or(scene.film.resolution);
-    let whole = u64::from(width) * u64::from(height);
-    let of_file = area([0, scene.film.resolution[0], 0, scene.film.resolution[1]]);
-    match options.crop {
-        Some(crop) => area(crop).min(whole),
-        // The file's crop scales with the resolution.
-        None => {
-            let scaled = u128::from(whole) * u128::from(area(scene.film.crop));
-            let scaled = scaled / u128::from(of_file.max(1));
-            u64::try_from(scaled).map_or(whole, |pixels| pixels.min(whole))
-        }
-    }
+    let [x0, x1, y0, y1] = asked_crop(&scene.film, options);
+    let [columns, rows] = [(x0, x1.min(width)), (y0, y1.min(height))];
+    [columns, rows].map(|(from, to)| u64::from(to.saturating_sub(from)))
 }
 
 #[cfg(test)]
@@ -379,6 +371,8 @@ mod tests {
         let film = |options| MemoryEstimate::new(&scene, &options, 1).film;
         let whole = film(options(Some([4096, 4096]), None));
         assert_eq!(whole / 4096 / 4096, 168);
+        // Of tiles whose pixels are partly beyond the picture, all.
+        assert_eq!(film(options(Some([17, 16]), None)), 2 * BYTES_PER_TILE);
         let part = film(options(Some([4096, 4096]), Some([0, 1024, 0, 1024])));
         assert_eq!(whole, 16 * part);
     }

@@ -99,13 +99,7 @@ impl View {
         if pixels == 0 || pixels > MOST_PIXELS || film.resolution.contains(&0) {
             return Err(PrepareError::Resolution { width, height });
         }
-        let scaled = |v: u32, axis: usize| {
-            round_u32(f64::from(v) * f64::from(resolution[axis]) / f64::from(film.resolution[axis]))
-        };
-        let asked = options.crop.unwrap_or_else(|| {
-            let [x0, x1, y0, y1] = film.crop;
-            [scaled(x0, 0), scaled(x1, 0), scaled(y0, 1), scaled(y1, 1)]
-        });
+        let asked = asked_crop(film, options);
         let crop = [
             asked[0],
             asked[1].min(width),
@@ -128,6 +122,19 @@ impl View {
             crop,
         })
     }
+}
+
+/// The pixels `[x0, x1, y0, y1]` that options and a scene's film ask for, which may lie beyond the picture: the film's
+/// crop scales with the resolution.
+pub(crate) fn asked_crop(film: &scene::Film, options: &RenderOptions) -> [u32; 4] {
+    let resolution = options.resolution.unwrap_or(film.resolution);
+    let scaled = |v: u32, axis: usize| {
+        round_u32(f64::from(v) * f64::from(resolution[axis]) / f64::from(film.resolution[axis]))
+    };
+    options.crop.unwrap_or_else(|| {
+        let [x0, x1, y0, y1] = film.crop;
+        [scaled(x0, 0), scaled(x1, 0), scaled(y0, 1), scaled(y1, 1)]
+    })
 }
 
 impl PreparedScene {

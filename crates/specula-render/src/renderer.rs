@@ -6,7 +6,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use macro_rules_attribute::apply;
 use rayon::prelude::*;
 
-use crate::film::{Aim, FilmBuffer, PixelSums, ScatterCounts, Tile, VertexCounts};
+use crate::film::{
+    Aim, FilmBuffer, PixelSums, ROWS, SampleRows, ScatterCounts, Tile, VertexCounts,
+};
 use crate::integrator::{PathTracer, Tally, Wavefront};
 use crate::options::RenderOptions;
 use crate::prepared::PreparedScene;
@@ -212,7 +214,8 @@ impl<'a> Renderer<'a> {
                     before: Vec::new(),
                 });
                 let (invalid, rays) = (tile.invalid, tile.rays);
-                worker.before.clone_from(&tile.pixels);
+                worker.before.clear();
+                worker.before.extend_from_slice(&tile.pixels);
                 let done = render_tile(&tracer, &mut worker.wavefront, (options, stop), tile, goal);
                 let Some(done) = done else {
                     (tile.invalid, tile.rays) = (invalid, rays);
@@ -442,10 +445,18 @@ fn add_samples(
     pixels: &mut [PixelSums],
 ) -> Vec<(u32, u32)> {
     let mut invalid = Vec::new();
-    for (i, &place) in places.iter().enumerate() {
-        let (sample, weight) = tracer.contribution(wavefront, i);
-        if !pixels[place.0 as usize].add(&sample, weight) {
-            invalid.push(place);
+    let mut rows = SampleRows::new();
+    for (chunk, places) in places.chunks(ROWS).enumerate() {
+        for (row, &place) in places.iter().enumerate() {
+            let (sample, weight) = tracer.contribution(wavefront, chunk * ROWS + row);
+            if !rows.set(row, &sample, weight) {
+                invalid.push(place);
+            }
+        }
+        let mut first = 0;
+        for run in places.chunk_by(|a, b| a.0 == b.0) {
+            pixels[run[0].0 as usize].add_rows(&rows, first..first + run.len());
+            first += run.len();
         }
     }
     invalid

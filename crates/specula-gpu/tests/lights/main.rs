@@ -351,7 +351,7 @@ fn planted_faults_are_noticed() {
         return;
     };
     let everything = [
-        ("light_node", "* sine_b", "* 1.01 * sine_b"),
+        ("light_node", "+ a.y * b.y", "+ 1.01 * a.y * b.y"),
         ("light_tree", "importances.x / (", "importances.y / ("),
         (
             "area",

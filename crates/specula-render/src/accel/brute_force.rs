@@ -373,11 +373,11 @@ impl Order {
 #[apply(simd_levels)]
 fn closest(small: &SmallScene, rays: &RayBlock, n: usize, hits: &mut SmallHits) {
     let n = n.min(BLOCK);
-    let mut sheared = Pack::NOTHING_SHEARED;
+    let (mut pack, mut sheared) = (Pack::NONE, Pack::NOTHING_SHEARED);
     if small.sorts() {
         hits.place[..n].fill(NOTHING);
         for (axis, members) in Order::new(rays, n).packs() {
-            let mut pack = Pack::gathered(rays, members);
+            pack.gather(rays, members);
             pack.offer_all::<false>(small, axis, &mut sheared);
             for (lane, &i) in members.iter().enumerate() {
                 let i = usize::from(i) % BLOCK;
@@ -390,7 +390,7 @@ fn closest(small: &SmallScene, rays: &RayBlock, n: usize, hits: &mut SmallHits) 
         return;
     }
     for from in (0..n).step_by(PACK) {
-        let mut pack = Pack::at(rays, from);
+        pack.load(rays, from);
         pack.offer_all::<false>(small, 0, &mut sheared);
         hits.t[from..from + PACK].copy_from_slice(&pack.t.0);
         hits.place[from..from + PACK].copy_from_slice(&pack.place);
@@ -399,11 +399,11 @@ fn closest(small: &SmallScene, rays: &RayBlock, n: usize, hits: &mut SmallHits) 
 
 #[apply(simd_levels)]
 fn any(small: &SmallScene, rays: &RayBlock, occluded: &mut [bool]) {
-    let mut sheared = Pack::NOTHING_SHEARED;
+    let (mut pack, mut sheared) = (Pack::NONE, Pack::NOTHING_SHEARED);
     if small.sorts() {
         occluded.fill(false);
         for (axis, members) in Order::new(rays, occluded.len().min(BLOCK)).packs() {
-            let mut pack = Pack::gathered(rays, members);
+            pack.gather(rays, members);
             pack.offer_all::<true>(small, axis, &mut sheared);
             for (lane, &i) in members.iter().enumerate() {
                 occluded[usize::from(i)] = pack.place[lane] != NOTHING;
@@ -412,7 +412,7 @@ fn any(small: &SmallScene, rays: &RayBlock, occluded: &mut [bool]) {
         return;
     }
     for (nth, occluded) in occluded.chunks_mut(PACK).take(BLOCK / PACK).enumerate() {
-        let mut pack = Pack::at(rays, nth * PACK);
+        pack.load(rays, nth * PACK);
         pack.offer_all::<true>(small, 0, &mut sheared);
         for (occluded, place) in occluded.iter_mut().zip(&pack.place) {
             *occluded = *place != NOTHING;

@@ -125,15 +125,14 @@ impl<'a> FrameGroup<'a> {
         group
     }
 
-    /// Whether all rays can hit, lead to the same sides, and have the greatest component of their directions along the same
-    /// axis.
+    /// Whether all rays can hit, and have the greatest component of their directions along the same axis.
     #[inline(always)]
-    pub(super) fn is_coherent(&self) -> bool {
+    pub(super) fn have_one_axis(&self) -> bool {
         let mut apart = self.axis[0] == NO_AXIS;
         for k in 1..GROUP {
             apart |= self.axis[k] != self.axis[0];
         }
-        !apart && lead_to_same_sides(self.rays, self.first)
+        !apart
     }
 
     /// Which rays can hit, as bits.

@@ -7,7 +7,8 @@ use super::collapse::{self, Tree};
 use super::kernel::MAX_DEPTH;
 use super::node::{Child, ChildKind, Node8, Packet8};
 use super::traverse::Scene;
-use super::{Bounds, CurveSegment, Group, curve, huge_pages, patch, quadric, triangle};
+use super::{Bounds, CurveSegment, Group, curve, patch, quadric, triangle};
+use crate::huge_pages;
 
 /// A group's arrays, with indices of its own, and their tree.
 pub(super) struct GroupTree {

@@ -33,7 +33,6 @@ mod flat;
 mod frame;
 mod frustum;
 mod group;
-mod huge_pages;
 mod input;
 mod instances;
 mod interleaved;

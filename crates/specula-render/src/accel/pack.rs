@@ -143,7 +143,7 @@ fn take<const ANY: bool>(
 
 impl Pack {
     /// Of no ray.
-    const NONE: Self = Self {
+    pub(super) const NONE: Self = Self {
         origin: [Column::ZERO; 3],
         direction: [Column([1.0; PACK]); 3],
         reciprocal: [Column([1.0; PACK]); 3],
@@ -166,31 +166,35 @@ impl Pack {
         pack
     }
 
-    /// Of rays of a block, by their indices.
+    /// Takes rays of a block, by their indices.
     #[inline(always)]
-    pub(super) fn gathered(rays: &RayBlock, members: &[u16]) -> Self {
-        let mut pack = Self::NONE;
+    pub(super) fn gather(&mut self, rays: &RayBlock, members: &[u16]) {
+        self.forget();
         for (lane, &i) in members.iter().take(PACK).enumerate() {
-            pack.set(lane, &rays.get(usize::from(i) % BLOCK));
+            self.set(lane, &rays.get(usize::from(i) % BLOCK));
         }
-        pack
     }
 
-    /// Of the rays of a block from one on.
+    /// Takes the rays of a block from one on.
     #[inline(always)]
-    pub(super) fn at(rays: &RayBlock, from: usize) -> Self {
+    pub(super) fn load(&mut self, rays: &RayBlock, from: usize) {
         let from = from.min(BLOCK - PACK);
-        let mut pack = Self::NONE;
-        let column = |values: &[f32; BLOCK]| {
-            let mut column = Column::ZERO;
-            column.0.copy_from_slice(&values[from..from + PACK]);
-            column
-        };
+        self.forget();
+        let columns = (self.origin.iter_mut())
+            .chain(&mut self.direction)
+            .chain([&mut self.t]);
         let (o, d) = (&rays.origin, &rays.direction);
-        pack.origin = [&o.x, &o.y, &o.z].map(|c| column(c));
-        pack.direction = [&d.x, &d.y, &d.z].map(|c| column(c));
-        pack.t = column(&rays.t_max);
-        pack
+        let values = [&o.x, &o.y, &o.z, &d.x, &d.y, &d.z, &rays.t_max];
+        for (column, values) in columns.zip(values) {
+            column.0.copy_from_slice(&values[from..from + PACK]);
+        }
+    }
+
+    /// Leaves no ray. What is prepared for rays, and where hits lie, is written before it is read.
+    #[inline(always)]
+    fn forget(&mut self) {
+        self.t = Column([ENDED; PACK]);
+        self.place = [NOTHING; PACK];
     }
 
     #[inline(always)]

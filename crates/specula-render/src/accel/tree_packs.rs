@@ -118,11 +118,12 @@ fn cast<K: Kernel, const ANY: bool>(
     let mut groups = 0;
     for (nth, first) in (0..n.saturating_sub(GROUP - 1)).step_by(GROUP).enumerate() {
         let takes_any = scene.nodes.len() <= MOST_NODES;
-        if !takes_any && !frame::lead_to_same_sides(rays, first) {
+        let same_sides = frame::lead_to_same_sides(rays, first);
+        if !takes_any && !same_sides {
             continue;
         }
         let frames = FrameGroup::new(rays, first);
-        let is_coherent = frames.is_coherent();
+        let is_coherent = same_sides && frames.have_one_axis();
         if !takes_any && !is_coherent {
             continue;
         }

@@ -31,8 +31,9 @@ use std::cmp::Ordering;
 
 use rayon::prelude::*;
 
-use super::buffer::{FilmBuffer, MergeError, TILE, Tile};
+use super::buffer::{FilmBuffer, MergeError};
 use super::noise::{PixelNoise, Survey};
+use super::tile::{TILE, Tile};
 
 /// Samples of every pixel in the first round, at most. With fewer, light that is rare has often not been
 /// met, and a tile that is taken for quiet too early is too dark.
@@ -321,7 +322,7 @@ mod tests {
 
     /// Adds samples to a tile until it has what it is to have: `mean` with a deviation of `deviation`.
     fn fill(tile: &mut Tile, mean: f32, deviation: f32, rays: u64) {
-        for p in &mut tile.pixels {
+        for p in tile.pixels.iter_mut() {
             while p.count < tile.target {
                 let sign = if p.count % 2 == 0 { 1.0 } else { -1.0 };
                 let sample = PixelSample {

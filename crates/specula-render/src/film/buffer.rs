@@ -5,11 +5,9 @@ use specula_bsdf::math::vec3;
 use specula_bsdf::{Rgb, Vec3};
 
 use super::sum::{FixedSum, Sum};
+use super::tile::{Tile, bounds_of, empty_tiles};
 use crate::convert::narrow;
 use crate::picture::Picture;
-
-/// Side of a tile in pixels.
-pub(crate) const TILE: u32 = 16;
 
 /// What one camera path adds to its pixel.
 #[derive(Clone, Copy, Debug)]
@@ -33,16 +31,13 @@ pub(crate) struct PixelSums {
     pub(crate) count: u32,
 }
 
-/// What a pixel's sums take.
-pub(crate) const BYTES_PER_PIXEL: u64 = size_of::<PixelSums>() as u64;
-
 impl PixelSums {
     /// Words of [`words`](Self::words).
     pub(crate) const WORDS: usize = 21;
 
     /// Adds a sample with its filter weight; returns whether it was finite. A sample that is not
     /// counts as black.
-    #[inline(always)]
+    #[cfg(test)]
     pub(crate) fn add(&mut self, sample: &PixelSample, weight: f32) -> bool {
         self.count += 1;
         let value = sample.colour * weight;
@@ -147,21 +142,6 @@ impl PixelSums {
     }
 }
 
-/// A square of pixels, the unit of work.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Tile {
-    /// Pixels `[x0, x1, y0, y1]` of the whole picture.
-    pub(crate) bounds: [u32; 4],
-    /// Row by row.
-    pub(crate) pixels: Vec<PixelSums>,
-    /// Samples that were not finite.
-    pub(crate) invalid: u64,
-    /// Rays that its samples took.
-    pub(crate) rays: u64,
-    /// Samples of each pixel that adaptive sampling has allotted; 0 in other films.
-    pub(crate) target: u32,
-}
-
 /// The film: sums per pixel, in tiles.
 ///
 /// A pixel's sums depend on its own samples only, added in the order of their indices.
@@ -197,43 +177,19 @@ pub enum MergeError {
     Adaptive,
 }
 
-/// Bounds of the tiles of a crop, row by row.
-pub(super) fn tiles_of([x0, x1, y0, y1]: [u32; 4]) -> impl Iterator<Item = [u32; 4]> {
-    let row = move |y: u32| {
-        let bounds = move |x: u32| [x, (x + TILE).min(x1), y, (y + TILE).min(y1)];
-        (x0..x1).step_by(TILE as usize).map(bounds)
-    };
-    (y0..y1).step_by(TILE as usize).flat_map(row)
-}
-
-/// Pixels within bounds.
-fn area([x0, x1, y0, y1]: [u32; 4]) -> usize {
-    (x1 - x0) as usize * (y1 - y0) as usize
-}
-
 impl FilmBuffer {
     /// An empty film.
     ///
     /// * `crop`: pixels `[x0, x1, y0, y1]` of the whole picture, half open.
     /// * `first_sample`: the index of each pixel's first sample.
     pub fn new(full_resolution: [u32; 2], crop: [u32; 4], first_sample: u32) -> Self {
-        let tile = |bounds: [u32; 4]| Tile {
-            bounds,
-            pixels: vec![PixelSums::default(); area(bounds)],
-            invalid: 0,
-            rays: 0,
-            target: 0,
-        };
-        // By all threads: the system clears every page.
-        let bounds: Vec<[u32; 4]> = tiles_of(crop).collect();
-        let tiles = bounds.into_par_iter().map(tile).collect();
         Self {
             full_resolution,
             crop,
             first_sample,
             parts: Vec::new(),
             work: 0.0,
-            tiles,
+            tiles: empty_tiles(crop),
         }
     }
 
@@ -274,9 +230,8 @@ impl FilmBuffer {
         tiles: Vec<Tile>,
     ) -> Option<Self> {
         let ordered = parts.windows(2).all(|p| p[0][1] < p[1][0]);
-        let whole = tiles.iter().all(|t| t.pixels.len() == area(t.bounds))
-            && tiles.iter().map(|t| t.bounds).eq(tiles_of(crop))
-            && tiles.iter().all(Tile::is_even);
+        let whole =
+            tiles.iter().map(|t| t.bounds).eq(bounds_of(crop)) && tiles.iter().all(Tile::is_even);
         if !ordered || !whole || parts.iter().any(|[from, to]| from >= to) {
             return None;
         }
@@ -334,7 +289,7 @@ impl FilmBuffer {
         }
         let pairs = self.tiles.par_iter_mut().zip(&other.tiles);
         pairs.for_each(|(a, b)| {
-            for (p, q) in a.pixels.iter_mut().zip(&b.pixels) {
+            for (p, q) in a.pixels.iter_mut().zip(b.pixels.iter()) {
                 p.merge(q);
             }
             a.invalid += b.invalid;
@@ -395,7 +350,7 @@ impl FilmBuffer {
         };
         for tile in &self.tiles {
             let tile_width = tile.bounds[1] - tile.bounds[0];
-            for (i, p) in (0_u32..).zip(&tile.pixels) {
+            for (i, p) in (0_u32..).zip(tile.pixels.iter()) {
                 let x = tile.bounds[0] - x0 + i % tile_width;
                 let y = tile.bounds[2] - y0 + i / tile_width;
                 let at = (y * width + x) as usize;
@@ -433,7 +388,7 @@ mod tests {
     fn mean_and_variance_of_the_mean_are_the_textbook_ones() {
         let mut film = FilmBuffer::new([20, 18], [1, 19, 0, 18], 0);
         for tile in &mut film.tiles {
-            for p in &mut tile.pixels {
+            for p in tile.pixels.iter_mut() {
                 for v in [1.0, 2.0, 6.0] {
                     assert!(p.add(&sample(v), 1.0));
                 }
@@ -468,7 +423,7 @@ mod tests {
     fn film(first: u32, n: u32) -> FilmBuffer {
         let mut film = FilmBuffer::new([20, 4], [0, 20, 0, 4], first);
         for number in first..first + n {
-            for p in film.tiles.iter_mut().flat_map(|t| &mut t.pixels) {
+            for p in film.tiles.iter_mut().flat_map(|t| t.pixels.iter_mut()) {
                 p.add(&sample(number as f32 * 0.1), 0.7);
             }
         }
@@ -501,7 +456,7 @@ mod tests {
     #[test]
     fn a_part_with_an_unfinished_pass_cannot_be_gone_on_with() {
         let mut a = film(0, 10);
-        for p in &mut a.tiles[1].pixels {
+        for p in a.tiles[1].pixels.iter_mut() {
             p.add(&sample(1.0), 1.0);
         }
         assert_eq!(a.samples(), [[0, 11]]);

@@ -43,7 +43,7 @@ impl Develop {
         let mut c = radiance * self.exposure;
         let largest = c.r.max(c.g).max(c.b);
         if largest > self.max_component {
-            c *= self.max_component / largest;
+            c = bounded(c, largest, self.max_component);
         }
         let Some(rows) = self.balance else {
             return c;
@@ -55,6 +55,13 @@ impl Develop {
             b: row(rows[2]),
         }
     }
+}
+
+/// A colour whose largest component is to be another. Rare, so that it is not worth a division for each sample.
+#[cold]
+#[inline(never)]
+fn bounded(c: Rgb<f32>, largest: f32, bound: f32) -> Rgb<f32> {
+    c * (bound / largest)
 }
 
 #[cfg(test)]

@@ -25,7 +25,8 @@ use specula_scene::{Scene, atomic};
 use thiserror::Error;
 use twox_hash::XxHash3_64;
 
-use super::buffer::{FilmBuffer, PixelSums, Tile};
+use super::buffer::{FilmBuffer, PixelSums};
+use super::tile::Tile;
 use crate::options::{BIASED, RenderOptions};
 
 const MAGIC: &[u8; 8] = b"SPECFILM";

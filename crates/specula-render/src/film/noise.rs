@@ -33,7 +33,8 @@
 
 use rayon::prelude::*;
 
-use super::buffer::{FilmBuffer, PixelSums, Tile};
+use super::buffer::{FilmBuffer, PixelSums};
+use super::tile::Tile;
 use crate::convert::narrow;
 
 /// Samples that carry a pixel whose variance counts as known, at least. With 2 to 16, the estimate for the BMW

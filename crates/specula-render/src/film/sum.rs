@@ -59,6 +59,45 @@ impl Sum {
     }
 }
 
+/// Sums that are added to together, in a vector.
+#[derive(Clone, Copy)]
+pub(crate) struct SumLanes<const N: usize> {
+    high: [f64; N],
+    low: [f64; N],
+}
+
+impl<const N: usize> SumLanes<N> {
+    /// [`Sum::add`] of each.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, terms: &[f64; N]) {
+        for (lane, &term) in terms.iter().enumerate() {
+            let mut sum = self.get(lane);
+            sum.add(term);
+            (self.high[lane], self.low[lane]) = (sum.high, sum.low);
+        }
+    }
+
+    #[inline(always)]
+    fn get(&self, lane: usize) -> Sum {
+        let (high, low) = (self.high[lane], self.low[lane]);
+        Sum { high, low }
+    }
+
+    /// The sums one by one.
+    #[inline(always)]
+    pub(crate) fn sums(&self) -> [Sum; N] {
+        core::array::from_fn(|lane| self.get(lane))
+    }
+}
+
+impl<const N: usize> From<[Sum; N]> for SumLanes<N> {
+    #[inline(always)]
+    fn from(sums: [Sum; N]) -> Self {
+        let (high, low) = (sums.map(|s| s.high), sums.map(|s| s.low));
+        Self { high, low }
+    }
+}
+
 /// A sum of values of the order of 1 (colours of surfaces, directions) in units of 2^-30: exact for
 /// 2^31 of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -67,15 +106,21 @@ pub(crate) struct FixedSum(i64);
 impl FixedSum {
     const UNIT: f64 = 1.0 / (1 << 30) as f64;
 
-    /// Rounds to the nearest unit; NaN counts as 0.
+    /// Rounds to the nearest unit, halves away from 0. NaN counts as 0, and what is beyond 2^8 as that.
     #[inline(always)]
-    #[allow(
-        clippy::cast_possible_truncation,
-        reason = "rounded and saturating: numbers beyond 2^33 do not occur"
-    )]
     pub(crate) fn add(&mut self, term: f32) {
-        let units = (f64::from(term) / Self::UNIT).round() as i64;
-        self.0 = self.0.saturating_add(units);
+        // As bits of a number between 2^52 and 2^53, whose last bit is 1: few processors convert several at a time.
+        const ONES: f64 = (1_u64 << 52) as f64;
+        const MOST: f64 = (1_u64 << 38) as f64;
+        let units = f64::from(term.abs()) / Self::UNIT;
+        let units = if units < MOST { units } else { MOST };
+        // A sum of a number of 24 bits and a half is exact where it is close to a whole one.
+        let whole = (units + 0.5).floor() + ONES;
+        let units = (whole.to_bits() - ONES.to_bits()).cast_signed();
+        let units = if term < 0.0 { -units } else { units };
+        let units = if term.is_nan() { 0 } else { units };
+        // Below 2^63 for 2^25 terms.
+        self.0 = self.0.wrapping_add(units);
     }
 
     pub(crate) fn merge(&mut self, other: Self) {
@@ -199,7 +244,21 @@ mod tests {
         twice.merge(sum);
         assert_eq!(twice.value(), 2.0 * sum.value());
         assert_eq!(FixedSum::from_word(sum.word()), sum);
-        sum.add(-1000.0);
+        sum.add(-100.0);
         assert_eq!(FixedSum::from_word(sum.word()), sum);
+        let units = |term: f32| {
+            let mut sum = FixedSum::default();
+            sum.add(term);
+            sum.0
+        };
+        let unit = 2.0_f32.powi(-30);
+        for (term, expected) in [(0.49, 0), (0.5, 1), (1.49, 1), (2.5, 3), (1e-30, 0)] {
+            assert_eq!(units(term * unit), expected, "{term}");
+            assert_eq!(units(-term * unit), -expected, "{term}");
+        }
+        // As many units as an `f32` has digits, and beyond the bound.
+        assert_eq!(units(16_777_215.0 * unit), 16_777_215);
+        assert_eq!(units(f32::INFINITY), 1 << 38);
+        assert_eq!(units(-300.0), -(1 << 38));
     }
 }

@@ -14,6 +14,7 @@ use specula_scene::scene::{
 use super::{GroupData, HairShape, NONE, PlacedQuadric, ShapeRecord, parallelogram};
 use crate::accel::{CurveSegment, CurveShape, QuadricShape};
 use crate::convert::{Affine, id, narrow, narrow3, normal_matrix, transform_point};
+use crate::huge_pages;
 use crate::movement::Movement;
 use crate::texture::Textures;
 
@@ -265,6 +266,12 @@ impl<'a> Baker<'a> {
         group.triangles.reserve_exact(triangles);
         group.normals.reserve_exact(normals);
         group.uvs.reserve_exact(uvs);
+        group.shape_of.reserve_exact(triangles + shapes.len());
+        huge_pages::advise(&group.positions);
+        huge_pages::advise(&group.triangles);
+        huge_pages::advise(&group.normals);
+        huge_pages::advise(&group.uvs);
+        huge_pages::advise(&group.shape_of);
     }
 
     /// Adds a mesh; returns whether it has texture coordinates.

@@ -223,8 +223,9 @@ impl Lights {
             choose_by_treelets(n, &self.selection, r);
         } else {
             if self.selection.chooses() {
-                let nodes = self.selection.nodes();
-                for (node, column) in nodes.iter().zip(&mut r.choices.importance) {
+                let nodes = self.selection.nodes().iter().zip(&mut r.choices.importance);
+                // That of a root with children is their sum.
+                for (node, column) in nodes.skip(usize::from(self.selection.branches())) {
                     node_importances(n, node, &r.point, &r.normal, column);
                 }
             }

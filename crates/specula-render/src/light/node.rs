@@ -119,32 +119,34 @@ impl Node {
 
     #[inline(always)]
     fn estimate<const WITHOUT_BRANCHES: bool>(&self, point: Vec3<f32>, normal: Vec3<f32>) -> f32 {
+        // Cosines and sines are multiples by the distance: roots and divisions are what takes time.
         let d = self.centre - point;
-        let distance_squared = d.length_squared();
-        let inverse_distance = 1.0 / distance_squared.sqrt();
-        let to_centre = d * inverse_distance;
-        let sin_u = self.radius * inverse_distance;
-        let cos_u = (1.0 - sin_u * sin_u).max(0.0).sqrt();
+        let (distance_squared, radius_squared) = (d.length_squared(), self.radius * self.radius);
+        let inverse_square = 1.0 / distance_squared;
+        let with_sine = |cos: f32| [cos, root(distance_squared - cos * cos)];
+        let sphere = [root(distance_squared - radius_squared), self.radius];
         let has_normal = (normal.x != 0.0) | (normal.y != 0.0) | (normal.z != 0.0);
-        let cos_i = minus_clamped(normal.dot(to_centre), sin_u, cos_u);
-        let cos_i = if has_normal { cos_i } else { 1.0 };
+        let [cos, sin] = minus(with_sine(normal.dot(d)), sphere);
+        let nearest = (sin < 0.0) | !has_normal;
+        let cos_i = if nearest { 1.0 } else { cos * inverse_square };
         let mut lit = cos_i > -SLACK;
         let mut factor = cos_i.max(SLACK);
         // Lights all around their normals, spheres and points, send everywhere alike.
         let directed = self.cos_o > -1.0;
         if WITHOUT_BRANCHES | directed {
-            let cos = -self.axis.dot(to_centre);
-            let cos = if self.two_sided { cos.abs() } else { cos };
-            let cos = minus_clamped(cos, self.sin_o, self.cos_o);
-            let cos = minus_clamped(cos, sin_u, cos_u);
+            let along = -self.axis.dot(d);
+            let along = if self.two_sided { along.abs() } else { along };
+            let outside = minus(with_sine(along), [self.cos_o, self.sin_o]);
+            let [cos, sin] = minus(outside, sphere);
+            let nearest = (outside[1] < 0.0) | (sin < 0.0);
+            let cos = if nearest { 1.0 } else { cos * inverse_square };
             lit &= !directed | (cos > self.cos_e - SLACK);
             factor *= if directed { cos.max(SLACK) } else { 1.0 };
         }
-        let inside = distance_squared <= self.radius * self.radius;
+        let inside = distance_squared <= radius_squared;
         let (intensity, inverse_square) = if inside {
             (self.intensity, self.inverse_square)
         } else {
-            let inverse_square = inverse_distance * inverse_distance;
             (self.intensity * factor, inverse_square)
         };
         let importance = (intensity * inverse_square).min(MOST);
@@ -163,11 +165,16 @@ pub(super) fn share([a, b]: [f32; 2]) -> f32 {
     if (a > 0.0) & (b > 0.0) { between } else { one }
 }
 
-/// `cos(max(a - b, 0))` of angles in `[0, pi]`.
+/// Cosine and sine of `a - b`, of angles in `[0, pi]`, times the factors of both: the sine is negative where `a < b`.
 #[inline(always)]
-fn minus_clamped(cos_a: f32, sin_b: f32, cos_b: f32) -> f32 {
-    let less = cos_a * cos_b + (1.0 - cos_a * cos_a).max(0.0).sqrt() * sin_b;
-    if cos_a >= cos_b { 1.0 } else { less }
+fn minus([cos_a, sin_a]: [f32; 2], [cos_b, sin_b]: [f32; 2]) -> [f32; 2] {
+    [cos_a * cos_b + sin_a * sin_b, sin_a * cos_b - cos_a * sin_b]
+}
+
+/// The square root; 0 of what rounding made negative.
+#[inline(always)]
+fn root(x: f32) -> f32 {
+    x.max(0.0).sqrt()
 }
 
 #[cfg(test)]

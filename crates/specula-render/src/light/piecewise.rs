@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::convert::{floor_index, id, narrow};
+use crate::huge_pages;
 use crate::soa::{Column, Floats};
 use crate::words::Words;
 
@@ -26,6 +27,7 @@ impl Piecewise {
         weight: impl Fn(usize, usize) -> f64 + Sync,
     ) -> Self {
         let mut rows = vec![0.0; (width + 1) * height];
+        huge_pages::advise(&rows);
         let mut columns = vec![0.0; height + 1];
         let row = |weights: &mut Vec<f64>, (y, row): (usize, &mut [f32])| {
             for (x, w) in weights.iter_mut().enumerate() {

@@ -214,6 +214,11 @@ impl Selection {
         self.only.is_none()
     }
 
+    /// Whether the tree over the lights in the scene is more than one leaf.
+    pub(super) fn branches(&self) -> bool {
+        self.nodes().first().is_some_and(|root| !root.leaf)
+    }
+
     /// The nodes of the tree over the lights in the scene.
     pub(super) fn nodes(&self) -> &[Node] {
         self.near.nodes()

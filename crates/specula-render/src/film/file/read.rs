@@ -8,7 +8,8 @@ use flate2::read::ZlibDecoder;
 use rayon::prelude::*;
 use twox_hash::XxHash3_64;
 
-use super::super::buffer::{FilmBuffer, PixelSums, Tile, tiles_of};
+use super::super::buffer::{FilmBuffer, PixelSums};
+use super::super::tile::{Tile, area, bounds_of, empty_tiles};
 use super::{FORMAT, FilmFile, FilmFileError, FilmHead, LONGEST_TEXT, Label, MAGIC};
 
 /// Most pixels of a film that is read: those of a picture.
@@ -60,6 +61,11 @@ fn begin(bytes: &[u8]) -> Result<Input<'_>, FilmFileError> {
     }
 }
 
+/// Bytes of a pixel, unpacked.
+const BYTES_PER_PIXEL: usize = PixelSums::WORDS * 8;
+/// Bytes that a packed one makes at most: no method deflates more.
+const MOST_RATIO: usize = 1032;
+
 /// The size of a film, and where its samples begin.
 struct Size {
     resolution: [u32; 2],
@@ -101,32 +107,28 @@ fn parse(mut input: Input<'_>) -> Option<FilmFile> {
         .collect::<Option<Vec<_>>>()?;
     let work = input.f64()?;
     let tile_count = input.u32()? as usize;
-    if tiles_of(size.crop).count() != tile_count || !(0.0..=f64::MAX).contains(&work) {
+    if bounds_of(size.crop).count() != tile_count || !(0.0..=f64::MAX).contains(&work) {
         return None;
     }
-    let packed = tiles_of(size.crop)
+    let packed = bounds_of(size.crop)
         .map(|bounds| {
             let [invalid, rays] = [input.array()?, input.array()?].map(u64::from_le_bytes);
             let target = input.u32()?;
             let length = input.u32()? as usize;
-            let tile = Tile {
-                bounds,
-                pixels: Vec::new(),
-                invalid,
-                rays,
-                target,
-            };
-            Some((tile, input.take(length)?))
+            let packed = input.take(length)?;
+            // Before memory is taken for what cannot be there.
+            let enough = area(bounds) * BYTES_PER_PIXEL <= length * MOST_RATIO;
+            enough.then_some((invalid, rays, target, packed))
         })
         .collect::<Option<Vec<_>>>()?;
-    let tiles = packed
-        .into_par_iter()
-        .map(|(tile, packed)| {
-            let [x0, x1, y0, y1] = tile.bounds;
-            let pixels = unpack(packed, ((x1 - x0) * (y1 - y0)) as usize)?;
-            Some(Tile { pixels, ..tile })
-        })
-        .collect::<Option<Vec<_>>>()?;
+    let mut tiles = empty_tiles(size.crop);
+    tiles
+        .par_iter_mut()
+        .zip(packed)
+        .try_for_each(|(tile, (invalid, rays, target, packed))| {
+            (tile.invalid, tile.rays, tile.target) = (invalid, rays, target);
+            unpack(packed, tile)
+        })?;
     let Size {
         resolution,
         crop,
@@ -136,20 +138,21 @@ fn parse(mut input: Input<'_>) -> Option<FilmFile> {
     Some(FilmFile { label, film })
 }
 
-/// The pixels of a tile; `None` where there are not exactly `count`.
-fn unpack(packed: &[u8], count: usize) -> Option<Vec<PixelSums>> {
-    let mut bytes = vec![0; count * PixelSums::WORDS * 8];
+/// Sets the pixels of a tile; `None` where there are not exactly as many.
+fn unpack(packed: &[u8], tile: &mut Tile) -> Option<()> {
+    let count = tile.pixels.len();
+    let mut bytes = vec![0; count * BYTES_PER_PIXEL];
     let mut decoder = ZlibDecoder::new(packed);
     decoder.read_exact(&mut bytes).ok()?;
     if decoder.read(&mut [0]).ok()? != 0 {
         return None;
     }
     let (words, _) = bytes.as_chunks::<8>();
-    let pixel = |i: usize| {
+    for (i, pixel) in tile.pixels.iter_mut().enumerate() {
         let word = |column: usize| u64::from_le_bytes(words[column * count + i]);
-        PixelSums::from_words(&core::array::from_fn(word))
-    };
-    Some((0..count).map(pixel).collect())
+        *pixel = PixelSums::from_words(&core::array::from_fn(word));
+    }
+    Some(())
 }
 
 /// Bytes yet to be read.

@@ -45,7 +45,7 @@ fn film(size: u32) -> FilmBuffer {
 
 /// Adds samples to every pixel, by its number.
 fn fill(film: &mut FilmBuffer, samples: u32, mut value: impl FnMut(usize) -> f64) {
-    let pixels = film.tiles.iter_mut().flat_map(|t| &mut t.pixels);
+    let pixels = film.tiles.iter_mut().flat_map(|t| t.pixels.iter_mut());
     for (i, p) in pixels.enumerate() {
         for _ in 0..samples {
             add(p, value(i));
@@ -57,7 +57,7 @@ fn fill(film: &mut FilmBuffer, samples: u32, mut value: impl FnMut(usize) -> f64
 fn true_errors(film: &FilmBuffer) -> Vec<f64> {
     film.tiles
         .iter()
-        .flat_map(|t| &t.pixels)
+        .flat_map(|t| t.pixels.iter())
         .map(|p| (p.luminance_and_deviation()[0] - 1.0).powi(2) / (1.0 + DARKEST))
         .collect()
 }

@@ -15,6 +15,7 @@ use super::super::piecewise::Piecewise;
 use super::axis::{Axis, AxisKind};
 use crate::codes;
 use crate::convert::{id, narrow};
+use crate::huge_pages;
 use crate::layout;
 use crate::words::Words;
 
@@ -63,6 +64,7 @@ impl Picture {
         let axes = [0, 1].map(|k| Axis::new(kinds[k], size[k]));
         let [width, height] = axes.map(|a| a.cells as usize + 1);
         let mut corners = vec![[0.0; 4]; width * height];
+        huge_pages::advise(&corners);
         let rows = corners.par_chunks_mut(width).enumerate();
         rows.for_each(|(y, row)| {
             for (x, corner) in row.iter_mut().enumerate() {
