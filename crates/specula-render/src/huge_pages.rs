@@ -6,8 +6,8 @@
     reason = "advice to the system on memory that a list owns"
 )]
 
-/// Asks for huge pages for the memory that a list has reserved, best before it is written. Lists of less than two
-/// megabytes get none, and what is left at the ends of larger ones.
+/// Asks for huge pages for the memory that a list has reserved, best before it is written. Those of lists that lie side by
+/// side hold parts of several.
 ///
 /// Only a wish: where the system has none, nothing changes.
 pub(crate) fn advise<T>(list: &Vec<T>) {
@@ -16,10 +16,12 @@ pub(crate) fn advise<T>(list: &Vec<T>) {
 
 #[cfg(target_os = "linux")]
 fn advise_range(start: *const u8, bytes: usize) {
-    /// Any page's size, to which the start of a range must be aligned, is a divisor of it.
-    const HUGE: usize = 2 << 20;
-    let before = start.align_offset(HUGE);
-    if let Some(bytes) = bytes.checked_sub(before).filter(|&bytes| bytes >= HUGE) {
+    /// Lists from this size on: allocators give them pages of their own.
+    const LARGE: usize = 128 << 10;
+    /// The usual size of a page, to which the start of a range must be aligned. Systems with larger ones refuse.
+    const PAGE: usize = 4 << 10;
+    let before = start.align_offset(PAGE);
+    if let Some(bytes) = bytes.checked_sub(before).filter(|_| bytes >= LARGE) {
         let aligned = start.wrapping_add(before).cast_mut();
         // SAFETY: the range lies within memory that the list owns. The advice changes how its pages are kept, not what
         // they hold, and a failure leaves them as they are.
