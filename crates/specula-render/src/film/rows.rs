@@ -1,5 +1,5 @@
-//! Samples in rows, each what it adds to the sums of its pixel: those of a run of samples of one pixel are added in
-//! vectors, a lane for each sum.
+//! Samples in rows, each what it adds to the sums of its pixel: those of a run of samples of one pixel are added
+//! together, a lane for each sum.
 
 use core::ops::Range;
 

@@ -59,7 +59,7 @@ impl Sum {
     }
 }
 
-/// Sums that are added to together, in a vector.
+/// Sums that are added to together.
 #[derive(Clone, Copy)]
 pub(crate) struct SumLanes<const N: usize> {
     high: [f64; N],

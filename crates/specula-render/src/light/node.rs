@@ -119,7 +119,7 @@ impl Node {
 
     #[inline(always)]
     fn estimate<const WITHOUT_BRANCHES: bool>(&self, point: Vec3<f32>, normal: Vec3<f32>) -> f32 {
-        // Cosines and sines are multiples by the distance: roots and divisions are what takes time.
+        // Cosines and sines are kept as multiples of the distance: roots and divisions are what takes time.
         let d = self.centre - point;
         let (distance_squared, radius_squared) = (d.length_squared(), self.radius * self.radius);
         let inverse_square = 1.0 / distance_squared;
