@@ -2,13 +2,14 @@
 //
 // From the root down, either child is taken with the probability of its share of the importance of both. A trail of
 // bits is stored for every light, the way to its leaf, so that the probability of a light that a ray hits by chance
-// is the same product.
+// is the same product. Where lights are few, all nodes are leaves, and a light is taken in proportion to its
+// importance; its trail is its place.
 //
 // LIGHT_NODES has LIGHT_NODE_COUNT nodes, LIGHT_TRAILS two words for each light: the lower and the upper
 // bits of its trail, from the root on; 1 for right.
 //
 // Source: Conty Estevez and Kulla 2018, section 5.4; Pharr, Jakob and Humphreys, 4th edition, 12.6.3.
-// Twin of specula-render/src/light/tree.rs.
+// Twin of specula-render/src/light/tree.rs and specula-render/src/light/few.rs.
 
 import tracer::light_node::{light_node_importance};
 import tracer::world::{word};
@@ -78,15 +79,75 @@ fn light_tree_share(importances: vec2f) -> f32 {
     return clamp(share, LIGHT_TREE_LEAST_SHARE, 1.0 - LIGHT_TREE_LEAST_SHARE);
 }
 
-/// An estimate of the irradiance by all lights: the sum over the root's children. 0 only where no light
-/// can contribute.
+/// Weights of few lights at a point.
+struct LightWeights {
+    /// Of each; then 0.
+    weights: array<f32, LIGHT_TREE_MOST_IN_LIST>,
+    /// The sum of the importances.
+    total: f32,
+    /// The sum of the weights.
+    sum: f32,
+}
+
+/// The weights of few lights: their importances, off 0 unless they are 0; the same for all where nothing arrives from
+/// any, so that the probabilities still add up to 1.
+/// Twin: specula-render/src/light/few.rs, Weights::new.
+fn light_tree_weights(position: vec3f, normal: vec3f) -> LightWeights {
+    var few = LightWeights();
+    for (var k = 0u; k < LIGHT_NODE_COUNT; k += 1u) {
+        few.weights[k] = light_node_importance(light_tree_place(k), position, normal);
+        few.total += few.weights[k];
+    }
+    let least = LIGHT_TREE_LEAST_SHARE * few.total;
+    for (var k = 0u; k < LIGHT_NODE_COUNT; k += 1u) {
+        let importance = few.weights[k];
+        let weight = select(0.0, max(importance, least), importance > 0.0);
+        few.weights[k] = select(1.0, weight, few.total > 0.0);
+        few.sum += few.weights[k];
+    }
+    return few;
+}
+
+/// Samples one of few lights, with its probability: one after the other is taken or left, by its share of the weights
+/// from there on.
+/// Twin: specula-render/src/light/few.rs, Weights::sample.
+fn light_tree_sample_few(position: vec3f, normal: vec3f, u: LightRandomNumber) -> LightChoice {
+    let few = light_tree_weights(position, normal);
+    // Summed from the last on, such that no digits are lost where little is left.
+    var left = array<f32, LIGHT_TREE_MOST_IN_LIST>();
+    var last = 0u;
+    var sum = 0.0;
+    for (var i = 0u; i < LIGHT_NODE_COUNT; i += 1u) {
+        let k = LIGHT_NODE_COUNT - 1u - i;
+        if sum <= 0.0 {
+            last = k;
+        }
+        sum += few.weights[k];
+        left[k] = sum;
+    }
+    var rest = u;
+    var chosen = 0u;
+    while chosen < last {
+        let share = few.weights[chosen] / left[chosen];
+        if light_tree_value(rest) < share {
+            break;
+        }
+        rest = light_tree_within(rest, share, 1.0 - share);
+        chosen += 1u;
+    }
+    let light = light_tree_link(chosen);
+    return LightChoice(light, few.weights[chosen] / few.sum);
+}
+
+/// An estimate of the irradiance by all lights: the sum over the root's children, or over few lights. 0 only where no
+/// light can contribute.
 /// Twin: specula-render/src/light/tree.rs, LightTree::total.
 fn light_tree_total(position: vec3f, normal: vec3f) -> f32 {
     if LIGHT_NODE_COUNT == 0u {
         return 0.0;
     }
     if light_tree_is_leaf(0u) {
-        return light_node_importance(LIGHT_NODES, position, normal);
+        return light_tree_weights(position, normal).total;
     }
     let importances = light_tree_children(0u, position, normal);
     return importances.x + importances.y;
@@ -110,6 +171,9 @@ fn light_tree_within(u: LightRandomNumber, begin: f32, size: f32) -> LightRandom
 fn light_tree_sample(position: vec3f, normal: vec3f, u: LightRandomNumber) -> LightChoice {
     if LIGHT_NODE_COUNT == 0u {
         return LightChoice(0u, 0.0);
+    }
+    if light_tree_is_leaf(0u) {
+        return light_tree_sample_few(position, normal, u);
     }
     var rest = u;
     var node = 0u;
@@ -136,6 +200,10 @@ fn light_tree_probability(position: vec3f, normal: vec3f, light: u32) -> f32 {
     var trail = vec2u(word(at), word(at + 1u));
     if all(trail == LIGHT_TREE_ABSENT) {
         return 0.0;
+    }
+    if light_tree_is_leaf(0u) {
+        let few = light_tree_weights(position, normal);
+        return few.weights[trail.x] / few.sum;
     }
     var node = 0u;
     var probability = 1.0;

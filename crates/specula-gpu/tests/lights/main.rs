@@ -352,7 +352,8 @@ fn planted_faults_are_noticed() {
     };
     let everything = [
         ("light_node", "+ a.y * b.y", "+ 1.01 * a.y * b.y"),
-        ("light_tree", "importances.x / (", "importances.y / ("),
+        ("light_tree", "/ left[chosen]", "/ few.sum"),
+        ("light_tree", "few.weights[trail.x] /", "few.weights[0] /"),
         (
             "area",
             "sqrt(max(1.0 - sine_squared / cone.sine_squared",
@@ -368,7 +369,10 @@ fn planted_faults_are_noticed() {
         ("sun", "t * (2.0 - t)", "t * (1.9 - t)"),
         ("lights", "far / (far + near)", "near / (far + near)"),
     ];
-    let falling = [("light_tree", "trail.y << 31u", "trail.y << 30u")];
+    let falling = [
+        ("light_tree", "importances.x / (", "importances.y / ("),
+        ("light_tree", "trail.y << 31u", "trail.y << 30u"),
+    ];
     let varying = [
         ("textured", "sampled.area.pdf *= density;", ""),
         (

@@ -22,7 +22,7 @@ use crate::simd::simd_levels;
 use crate::soa;
 use crate::texture::Textures;
 
-/// Most parallelograms that are sampled in batches: as many as such a tree has.
+/// Most parallelograms that are sampled in batches: as many as are chosen among at once.
 const MOST_QUEUES: u8 = 16;
 /// The queue of the environment, behind those.
 const ENVIRONMENT: u8 = MOST_QUEUES;
@@ -223,9 +223,8 @@ impl Lights {
             choose_by_treelets(n, &self.selection, r);
         } else {
             if self.selection.chooses() {
-                let nodes = self.selection.nodes().iter().zip(&mut r.choices.importance);
-                // That of a root with children is their sum.
-                for (node, column) in nodes.skip(usize::from(self.selection.branches())) {
+                let nodes = self.selection.nodes().iter();
+                for (node, column) in nodes.zip(&mut r.choices.importance) {
                     node_importances(n, node, &r.point, &r.normal, column);
                 }
             }
@@ -430,7 +429,7 @@ fn sample_points(n: usize, light: &Parallelogram, queue: &mut LightQueue) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::select::MOST_NODES;
+    use super::super::few::MOST_LIGHTS;
     use super::*;
     use crate::options::RenderOptions;
     use crate::prepared::PreparedScene;
@@ -486,7 +485,7 @@ mod tests {
         for (scene, mixed) in scenes().iter().zip([false, true]) {
             let lights = &scene.lights;
             let nodes = lights.selection.nodes().len();
-            assert_eq!(nodes > 15 && nodes <= MOST_NODES, mixed, "{nodes}");
+            assert_eq!(nodes > 8 && nodes <= MOST_LIGHTS, mixed, "{nodes}");
             let world = (&scene.geometry, &scene.textures);
             let u: [Vec<f32>; 4] =
                 [0, 1, 2, 3].map(|k| (0..COUNT).map(|i| random_numbers(i)[k]).collect());

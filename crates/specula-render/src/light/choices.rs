@@ -1,7 +1,7 @@
-//! Choices of lights for many receivers at once.
+//! Choices among few lights for many receivers at once.
 //!
-//! The nodes of a small tree are passed in order, all receivers at a time: there is no branch that a receiver decides,
-//! which no processor could foresee. Every child comes after its parent.
+//! The lights are passed in order, all receivers at a time: there is no branch that a receiver decides, which no
+//! processor could foresee.
 
 #![allow(
     clippy::needless_range_loop,
@@ -11,10 +11,10 @@
 use macro_rules_attribute::apply;
 
 use super::environment::BATCH_SIZE;
-use super::node::{Node, share};
-use super::select::{Class, MOST_NODES, Selection};
-use super::tree::Step;
-use crate::convert::id;
+use super::few::{MOST_LIGHTS, weight};
+use super::node::Node;
+use super::select::{Class, Selection};
+use crate::convert::{id, narrow};
 use crate::simd::simd_levels;
 use crate::soa;
 
@@ -29,8 +29,10 @@ type Indices = soa::Column<u32, BATCH_SIZE>;
 pub(super) struct Choices {
     /// Uniform in `[0, 1)`: as of [`Selection::sample`].
     pub(super) u: [Floats; 2],
-    /// The importance of each node of a small tree.
-    pub(super) importance: [Floats; MOST_NODES],
+    /// The importance of each of few lights; then its weight.
+    pub(super) importance: [Floats; MOST_LIGHTS],
+    /// The sum of the importances.
+    total: Floats,
     /// Probability of the class of lights from infinity.
     pub(super) share: Floats,
     /// The light with its probability; [`NO_LIGHT`] where there is none.
@@ -40,27 +42,29 @@ pub(super) struct Choices {
     is_far: [bool; BATCH_SIZE],
     /// What is left of the random number for the choice within the class.
     rest: Doubles,
-    /// The node, and the numbers that choose below it: `low .. low + width`.
-    node: Indices,
-    low: Doubles,
-    width: Doubles,
-    /// Probability of the light within its class.
-    within: Floats,
+    /// The sum of the weights, and of those of the lights passed so far.
+    sum: Doubles,
+    below: Doubles,
+    /// The place of the light in the list.
+    place: Indices,
+    /// The weight of the light.
+    weight: Floats,
 }
 
 impl Choices {
     pub(super) const ZERO: Self = Self {
         u: [Floats::of(0.0); 2],
-        importance: [Floats::of(0.0); MOST_NODES],
+        importance: [Floats::of(0.0); MOST_LIGHTS],
+        total: Floats::of(0.0),
         share: Floats::of(0.0),
         light: Indices::of(NO_LIGHT),
         probability: Floats::of(0.0),
         is_far: [false; BATCH_SIZE],
         rest: Doubles::of(0.0),
-        node: Indices::of(0),
-        low: Doubles::of(0.0),
-        width: Doubles::of(0.0),
-        within: Floats::of(0.0),
+        sum: Doubles::of(0.0),
+        below: Doubles::of(0.0),
+        place: Indices::of(0),
+        weight: Floats::of(0.0),
     };
 
     /// Stores the choice for one receiver.
@@ -74,7 +78,7 @@ impl Choices {
 }
 
 impl Selection {
-    /// [`Selection::choose`] for the first `n` receivers, by the importances of the tree's nodes.
+    /// [`Selection::choose`] for the first `n` receivers, by the importances of the lights in the scene.
     pub(super) fn choose_all(&self, n: usize, c: &mut Choices) {
         if let Some(light) = self.only {
             c.light.fill(light);
@@ -85,9 +89,9 @@ impl Selection {
         choose_classes(n, self, c);
         // Without one that is always taken, a choice among lights from infinity looks into a table.
         match self.only_far {
-            Some(light) => choose_in_tree(n, self.nodes(), light, c),
+            Some(light) => choose_in_list(self.nodes(), light, c),
             None => {
-                choose_in_tree(n, self.nodes(), NO_LIGHT, c);
+                choose_in_list(self.nodes(), NO_LIGHT, c);
                 for i in (0..n.min(BATCH_SIZE)).filter(|&i| c.is_far[i]) {
                     let (light, probability) =
                         self.far.sample(c.rest[i]).unwrap_or((NO_LIGHT, 0.0));
@@ -102,19 +106,14 @@ impl Selection {
 /// Chooses between lights from infinity and those in the scene.
 #[apply(simd_levels)]
 fn choose_classes(n: usize, selection: &Selection, c: &mut Choices) {
-    // The sum over the root's children.
-    let total = match selection.nodes() {
-        [] => None,
-        [root, ..] if root.leaf => Some((0, 0)),
-        [root, ..] => Some((1, root.link as usize)),
-    };
+    c.total.fill(0.0);
+    for importance in c.importance.iter().take(selection.nodes().len()) {
+        for i in 0..BATCH_SIZE {
+            c.total[i] += importance[i];
+        }
+    }
     for i in 0..n.min(BATCH_SIZE) {
-        let near = match total {
-            None => 0.0,
-            Some((a, b)) if a == b => c.importance[a % MOST_NODES][i],
-            Some((a, b)) => c.importance[a % MOST_NODES][i] + c.importance[b % MOST_NODES][i],
-        };
-        let share = selection.share_of(near);
+        let share = selection.share_of(c.total[i]);
         let class = Class::of(share, [c.u[0][i], c.u[1][i]]);
         c.share[i] = share;
         c.is_far[i] = class.is_far;
@@ -123,44 +122,47 @@ fn choose_classes(n: usize, selection: &Selection, c: &mut Choices) {
     }
 }
 
-/// Chooses in the tree over the lights in the scene.
+/// Chooses among the lights in the scene: [`Weights::sample`](super::few::Weights::sample).
 ///
 /// * `far`: the light from infinity.
 #[apply(simd_levels)]
-fn choose_in_tree(n: usize, nodes: &[Node], far: u32, c: &mut Choices) {
-    let n = n.min(BATCH_SIZE);
-    for i in 0..n {
-        c.light[i] = if c.is_far[i] { far } else { NO_LIGHT };
-        // No node is there where lights from infinity are chosen.
-        c.node[i] = if c.is_far[i] { u32::MAX } else { 0 };
-        c.low[i] = 0.0;
-        c.width[i] = 1.0;
-        c.within[i] = 1.0;
-    }
-    for (at, node) in nodes.iter().enumerate().take(MOST_NODES) {
-        let here = id(at);
-        if node.leaf {
-            for i in 0..n {
-                let is_here = c.node[i] == here;
-                c.light[i] = if is_here { node.link } else { c.light[i] };
-            }
-            continue;
-        }
-        let right = at + node.link as usize;
-        for i in 0..n {
-            let is_here = c.node[i] == here;
-            let children = [at + 1, right].map(|k| c.importance[k % MOST_NODES][i]);
-            let step = Step::of(c.rest[i], [c.low[i], c.width[i]], share(children));
-            let [low, width] = step.interval;
-            let next = if step.is_left { id(at + 1) } else { id(right) };
-            c.within[i] *= if is_here { step.probability } else { 1.0 };
-            c.low[i] = if is_here { low } else { c.low[i] };
-            c.width[i] = if is_here { width } else { c.width[i] };
-            c.node[i] = if is_here { next } else { c.node[i] };
+fn choose_in_list(nodes: &[Node], far: u32, c: &mut Choices) {
+    c.sum.fill(0.0);
+    for column in c.importance.iter_mut().take(nodes.len()) {
+        for i in 0..BATCH_SIZE {
+            let weight = weight(column[i], c.total[i]);
+            column[i] = weight;
+            c.sum[i] += f64::from(weight);
         }
     }
-    for i in 0..n {
-        c.probability[i] *= c.within[i];
+    for i in 0..BATCH_SIZE {
+        let is_far = c.is_far[i];
+        c.rest[i] *= if is_far { 1.0 } else { c.sum[i] };
+        c.below[i] = 0.0;
+        c.weight[i] = 0.0;
+        c.light[i] = if is_far { far } else { NO_LIGHT };
+        // No place of the list where lights from infinity are chosen.
+        c.place[i] = if is_far { id(BATCH_SIZE) } else { 0 };
+    }
+    for column in c.importance.iter().take(nodes.len()) {
+        for i in 0..BATCH_SIZE {
+            let end = c.below[i] + f64::from(column[i]);
+            c.below[i] = end;
+            c.place[i] += u32::from(c.rest[i] >= end);
+        }
+    }
+    for (k, (node, column)) in (0..).zip(nodes.iter().zip(&c.importance)) {
+        let light = node.link;
+        for i in 0..BATCH_SIZE {
+            let is_here = c.place[i] == k;
+            c.light[i] = if is_here { light } else { c.light[i] };
+            // Not one of two elements, which would be loaded one by one.
+            c.weight[i] += if is_here { column[i] } else { 0.0 };
+        }
+    }
+    for i in 0..BATCH_SIZE {
+        let within = c.weight[i] / narrow(c.sum[i]);
+        c.probability[i] *= if c.is_far[i] { 1.0 } else { within };
     }
 }
 
@@ -207,9 +209,9 @@ mod tests {
                 assert!(!selection.by_treelets());
                 let mut chosen = vec![0; lights + 1];
                 let mut c = Choices::ZERO;
-                for batch in 0..8_u16 {
+                for batch in 0..32_u16 {
                     let receiver = |i: u16| {
-                        let t = f32::from(64 * batch + i) / 512.0;
+                        let t = f32::from(64 * batch + i) / 2048.0;
                         let point =
                             vec3(18.0 * t - 1.0, (5.0 * t).fract(), 1.5 * (9.0 * t).fract());
                         let normals = [
@@ -222,7 +224,7 @@ mod tests {
                         Receiver { point, normal }
                     };
                     // Fewer in the last one.
-                    let n = if batch == 7 { 13 } else { BATCH_SIZE };
+                    let n = if batch == 31 { 13 } else { BATCH_SIZE };
                     let numbers = |i: u16| {
                         let u = f32::from(64 * batch + i) * 0.618_034;
                         [u.fract(), (u * 7.0).fract()]

@@ -9,6 +9,7 @@ mod choices;
 mod cone;
 mod delta;
 mod environment;
+mod few;
 mod flat;
 mod node;
 mod octahedral;

@@ -1,6 +1,6 @@
 //! Which light to sample at a point.
 //!
-//! Lights in the scene are chosen by the tree over them, lights from infinity in proportion to
+//! Lights in the scene are chosen by the tree or the list of them, lights from infinity in proportion to
 //! their irradiance. Between the two classes the estimates of irradiance decide, where both are:
 //!
 //! ```text
@@ -29,10 +29,6 @@ pub const LEAST_SHARE: f32 = 0.1;
 const FAR_COSINE: f64 = 0.35;
 /// Unit of the second random number of a choice: the first is a multiple of it.
 pub const FINER: f64 = 1.0 / 8_388_608.0;
-
-/// Most nodes of a light tree whose importances are all computed for many receivers at once: those over sixteen
-/// lights, and one more, as a power of two divides fast. Of larger trees [treelets](super::treelet) are.
-pub(super) const MOST_NODES: usize = 32;
 
 /// The choice among the lights of a scene.
 #[derive(Clone, Debug, Default)]
@@ -167,18 +163,19 @@ impl Selection {
     /// Probability with which [`Selection::sample`] samples a light in the scene.
     #[inline]
     pub(super) fn probability_near(&self, receiver: &Receiver, light: u32) -> f32 {
-        let at = (receiver.point, receiver.normal.unwrap_or(Vec3::ZERO));
-        if self.by_treelets() {
-            return probability_by_treelets(self, at, light);
+        if self.near.is_list() {
+            let weights = self.near.weights(&self.near.importances(receiver));
+            let share = 1.0 - self.share_of(weights.total);
+            return share * self.near.probability_in_list(&weights, light);
         }
-        let share = 1.0 - self.share(&self.near.importances(receiver));
-        share * self.near.probability(None, at, light)
+        let at = (receiver.point, receiver.normal.unwrap_or(Vec3::ZERO));
+        probability_by_treelets(self, at, light)
     }
 
-    /// Whether choices are faster by treelets, one receiver at a time.
+    /// Whether there are so many lights in the scene that they are chosen by treelets, one receiver at a time.
     #[inline(always)]
     pub(super) fn by_treelets(&self) -> bool {
-        self.near.nodes().len() > MOST_NODES
+        !self.near.is_list()
     }
 
     /// Probability with which [`Selection::sample`] samples any light from infinity.
@@ -214,12 +211,7 @@ impl Selection {
         self.only.is_none()
     }
 
-    /// Whether the tree over the lights in the scene is more than one leaf.
-    pub(super) fn branches(&self) -> bool {
-        self.nodes().first().is_some_and(|root| !root.leaf)
-    }
-
-    /// The nodes of the tree over the lights in the scene.
+    /// The nodes of the tree over the lights in the scene, or their list.
     pub(super) fn nodes(&self) -> &[Node] {
         self.near.nodes()
     }

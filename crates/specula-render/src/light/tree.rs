@@ -1,4 +1,5 @@
-//! A binary tree over the lights in the scene: choice by importance at a point.
+//! A binary tree over the lights in the scene: choice by importance at a point. Where lights are few, a list of them
+//! ([`few`](super::few)).
 //!
 //! From the root down, either child is taken with the probability of its share of the importance of
 //! both; the path to every light is stored as a trail of bits, such that the probability of a light
@@ -10,6 +11,7 @@
 use specula_bsdf::Vec3;
 
 use super::build::{Emitter, build};
+use super::few::{MOST_LIGHTS, Weights};
 use super::node::{self, LEAST_SHARE, Node, Receiver, share};
 use super::treelet::{Descent, Importances, Treelet, treelets};
 use crate::convert::{id, words_of};
@@ -21,18 +23,30 @@ const ABSENT: u64 = u64::MAX;
 /// A distribution over lights that depends on the receiver.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LightTree {
+    /// Leaves alone where lights are few; otherwise a tree.
     nodes: Vec<Node>,
     /// The nodes nearest to the root once more, in groups.
     treelets: Vec<Treelet>,
-    /// Path to every light of the scene: from the lowest bit on, 1 for right.
+    /// Path to every light of the scene: from the lowest bit on, 1 for right. In a list its place.
     trails: Vec<u64>,
 }
 
 impl LightTree {
     /// * `lights`: how many there are in the scene, in the tree or not.
     pub(super) fn new(mut emitters: Vec<Emitter>, lights: usize) -> Self {
-        let nodes = build(&mut emitters);
+        let mut nodes = build(&mut emitters);
         let mut trails = vec![ABSENT; lights];
+        if emitters.len() <= MOST_LIGHTS {
+            nodes.retain(|node| node.leaf);
+            for (trail, node) in (0..).zip(&nodes) {
+                trails[node.link as usize] = trail;
+            }
+            return Self {
+                nodes,
+                treelets: Vec::new(),
+                trails,
+            };
+        }
         let mut open = vec![(0, 0, 0_u32)];
         while let Some((at, trail, depth)) = open.pop() {
             let Some(node): Option<&Node> = nodes.get(at) else {
@@ -62,12 +76,32 @@ impl LightTree {
         &self.nodes
     }
 
+    /// Whether it is a list of few lights.
+    #[inline(always)]
+    pub(super) fn is_list(&self) -> bool {
+        self.nodes.first().is_none_or(|first| first.leaf)
+    }
+
+    /// The weights of a list's lights.
+    #[inline]
+    pub(super) fn weights(&self, importance: &impl Fn(usize) -> f32) -> Weights {
+        Weights::new(self.nodes.len(), importance)
+    }
+
+    /// Probability of a light in a list.
+    #[inline]
+    pub(super) fn probability_in_list(&self, weights: &Weights, light: u32) -> f32 {
+        let place = self.trails.get(light as usize).copied().unwrap_or(ABSENT);
+        usize::try_from(place).map_or(0.0, |place| weights.probability(place))
+    }
+
     /// Nodes, and trails as lower and upper words, for shaders.
     pub(super) fn flatten(&self, to: &mut Words) {
         to.float_constant("LIGHT_TREE_LEAST_SHARE", LEAST_SHARE);
         to.float_constant("LIGHT_NODE_SLACK", node::SLACK);
         to.float_constant("LIGHT_NODE_MOST", node::MOST);
         to.constant("LIGHT_NODE_COUNT", id(self.nodes.len()));
+        to.constant("LIGHT_TREE_MOST_IN_LIST", id(MOST_LIGHTS));
         to.begin("LIGHT_NODES");
         for node in &self.nodes {
             node.flatten(to);
@@ -84,18 +118,15 @@ impl LightTree {
         |at| self.nodes[at].importance(receiver)
     }
 
-    /// An estimate of the irradiance by all lights: the sum over the root's children. 0 only where
+    /// An estimate of the irradiance by all lights: the sum over the root's children, or over a list. 0 only where
     /// no light can contribute.
     #[inline]
     pub(super) fn total(&self, importance: &impl Fn(usize) -> f32) -> f32 {
-        match self.nodes.first() {
-            None => 0.0,
-            Some(root) if root.leaf => importance(0),
-            Some(_) => {
-                let [a, b] = self.children(0, importance);
-                a + b
-            }
+        if self.is_list() {
+            return self.weights(importance).total;
         }
+        let [a, b] = self.children(0, importance);
+        a + b
     }
 
     /// A light and its probability; `None` where the tree is empty.
@@ -104,6 +135,11 @@ impl LightTree {
     /// * `u`: uniform in `[0, 1)`, with more digits than `f32` has: every step takes one.
     #[inline]
     pub(super) fn sample(&self, importance: &impl Fn(usize) -> f32, u: f64) -> Option<(u32, f32)> {
+        if self.is_list() {
+            let weights = self.weights(importance);
+            let place = weights.sample(u)?;
+            return Some((self.nodes[place].link, weights.probability(place)));
+        }
         self.sample_below(Choice::new(u), importance)
     }
 
@@ -123,7 +159,7 @@ impl LightTree {
         }
     }
 
-    /// The importances of the nodes nearest to the root; `None` where that is a leaf or there is none.
+    /// The importances of the nodes nearest to the root; `None` of a list.
     #[inline(always)]
     pub(super) fn top(&self, at: (Vec3<f32>, Vec3<f32>)) -> Option<Importances> {
         // No closure: it would be compiled for the baseline.
@@ -158,7 +194,7 @@ impl LightTree {
         }
     }
 
-    /// Probability with which a light is sampled for a receiver.
+    /// Probability with which a light is sampled for a receiver, by the tree.
     ///
     /// * `descent`: a walk through the treelets, by which it is faster.
     /// * `receiver`: point and normal, zero where light from every side counts.
@@ -318,7 +354,7 @@ mod tests {
 
     #[test]
     fn treelets_choose_what_single_nodes_choose() {
-        for (count, most) in [(2, 9), (17, 9), (900, 1000), (900, 20), (900, 1)] {
+        for (count, most) in [(17, 9), (900, 1000), (900, 20), (900, 1)] {
             let mut tree = LightTree::new(emitters(count), usize::from(count) + 1);
             // What lies below those that are left goes node by node.
             tree.treelets.truncate(most);
@@ -352,10 +388,13 @@ mod tests {
     }
 
     #[test]
-    fn trees_without_inner_nodes_have_no_treelets() {
-        for count in [0, 1] {
-            let tree = LightTree::new(emitters(count), 1);
-            assert!(tree.top((Vec3::ZERO, Vec3::Z)).is_none());
+    fn few_lights_have_no_treelets() {
+        for count in [0, 1, 2, 16, 17] {
+            let tree = LightTree::new(emitters(count), usize::from(count));
+            assert_eq!(tree.is_list(), count <= 16);
+            assert_eq!(tree.top((Vec3::ZERO, Vec3::Z)).is_none(), count <= 16);
+            let nodes = if count <= 16 { count } else { 2 * count - 1 };
+            assert_eq!(tree.nodes.len(), usize::from(nodes));
         }
     }
 }
