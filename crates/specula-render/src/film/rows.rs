@@ -4,7 +4,7 @@
 use core::ops::Range;
 
 use super::buffer::{PixelSample, PixelSums};
-use super::sum::{FixedSum, Sum, SumLanes};
+use super::sum::{FixedSum, Sum};
 
 /// Lanes of a vector of sums.
 const LANES: usize = 8;
@@ -60,7 +60,7 @@ impl PixelSums {
     #[inline(always)]
     pub(crate) fn add_rows(&mut self, rows: &SampleRows, range: Range<usize>) {
         let ([r, g, b], [rr, gg, bb]) = (self.colour, self.squares);
-        let mut sums = SumLanes::from([r, g, b, rr, gg, bb, self.depth, Sum::default()]);
+        let mut sums = [r, g, b, rr, gg, bb, self.depth, Sum::default()];
         let ([r, g, b], [x, y, z]) = (self.albedo, self.normal);
         let unused = FixedSum::default();
         let mut fixed = [r, g, b, x, y, z, unused, unused];
@@ -74,12 +74,13 @@ impl PixelSums {
             for term in &mut terms[SQUARES] {
                 *term *= *term;
             }
-            sums.add(&terms);
+            for (sum, &term) in sums.iter_mut().zip(&terms) {
+                sum.add(term);
+            }
             for (sum, &term) in fixed.iter_mut().zip(&rows.fixed[row]) {
                 sum.add(term);
             }
         }
-        let sums = sums.sums();
         for i in 0..3 {
             self.colour[i] = sums[i];
             self.squares[i] = sums[SQUARES.start + i];

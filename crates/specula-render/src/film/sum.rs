@@ -59,45 +59,6 @@ impl Sum {
     }
 }
 
-/// Sums that are added to together.
-#[derive(Clone, Copy)]
-pub(crate) struct SumLanes<const N: usize> {
-    high: [f64; N],
-    low: [f64; N],
-}
-
-impl<const N: usize> SumLanes<N> {
-    /// [`Sum::add`] of each.
-    #[inline(always)]
-    pub(crate) fn add(&mut self, terms: &[f64; N]) {
-        for (lane, &term) in terms.iter().enumerate() {
-            let mut sum = self.get(lane);
-            sum.add(term);
-            (self.high[lane], self.low[lane]) = (sum.high, sum.low);
-        }
-    }
-
-    #[inline(always)]
-    fn get(&self, lane: usize) -> Sum {
-        let (high, low) = (self.high[lane], self.low[lane]);
-        Sum { high, low }
-    }
-
-    /// The sums one by one.
-    #[inline(always)]
-    pub(crate) fn sums(&self) -> [Sum; N] {
-        core::array::from_fn(|lane| self.get(lane))
-    }
-}
-
-impl<const N: usize> From<[Sum; N]> for SumLanes<N> {
-    #[inline(always)]
-    fn from(sums: [Sum; N]) -> Self {
-        let (high, low) = (sums.map(|s| s.high), sums.map(|s| s.low));
-        Self { high, low }
-    }
-}
-
 /// A sum of values of the order of 1 (colours of surfaces, directions) in units of 2^-30: exact for
 /// 2^31 of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
