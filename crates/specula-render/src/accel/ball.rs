@@ -27,21 +27,53 @@ pub(super) struct Ball {
     radius2: f64,
 }
 
-/// The terms above, in double precision.
+/// How a line passes a sphere: the terms above, in double precision.
+#[derive(Clone, Copy)]
 pub(super) struct Approach {
     a: f64,
     over_a: f64,
     b: f64,
     /// `(o - c)^2 - r^2`.
     c: f64,
-    /// `r^2 - l^2`; negative where the line misses.
-    pub(super) square: f64,
+    /// `r^2 - l^2`.
+    square: f64,
 }
 
 impl Approach {
-    /// The least positive `t` where the line does not miss; not positive where the sphere lies behind.
+    /// * `o`: relative to the centre.
+    /// * `radius2`: the square of the radius.
+    #[inline(always)]
+    pub(super) fn new(o: [f64; 3], d: [f64; 3], radius2: f64) -> Self {
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let (a, b) = (dot(d, d), -dot(o, d));
+        let over_a = 1.0 / a;
+        let along = b * over_a;
+        let l = [0, 1, 2].map(|k: usize| o[k] + along * d[k]);
+        Self {
+            a,
+            over_a,
+            b,
+            c: dot(o, o) - radius2,
+            square: radius2 - dot(l, l),
+        }
+    }
+
+    /// Whether the line hits the sphere.
+    #[inline(always)]
+    pub(super) fn hits(&self) -> bool {
+        self.square >= 0.0
+    }
+
+    /// The least positive `t` where the line hits; not positive where the sphere lies behind.
     #[inline(always)]
     pub(super) fn t(&self) -> f32 {
+        let [near, far] = self.roots();
+        f32::of(if near > 0.0 { near } else { far })
+    }
+
+    /// Both `t` where the line hits, the lesser first.
+    #[inline(always)]
+    pub(super) fn roots(&self) -> [f64; 2] {
         let Self {
             a,
             over_a,
@@ -51,8 +83,7 @@ impl Approach {
         } = *self;
         let q = b + (a * square).sqrt().copysign(b);
         let [s, t] = [c / q, q * over_a];
-        let (near, far) = if s < t { (s, t) } else { (t, s) };
-        f32::of(if near > 0.0 { near } else { far })
+        if s < t { [s, t] } else { [t, s] }
     }
 }
 
@@ -81,29 +112,14 @@ impl Ball {
     #[inline(always)]
     pub(super) fn t_in_doubles(&self, o: [f32; 3], d: [f32; 3]) -> f32 {
         let near = self.approach(o, d);
-        if near.square < 0.0 {
-            return f32::NAN;
-        }
-        near.t()
+        if near.hits() { near.t() } else { f32::NAN }
     }
 
     /// How a ray's line passes the centre.
     #[inline(always)]
     pub(super) fn approach(&self, o: [f32; 3], d: [f32; 3]) -> Approach {
-        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let x = [0, 1, 2].map(|k: usize| f64::from(o[k]) - self.centre[k]);
-        let d = d.map(f64::from);
-        let (a, b) = (dot(d, d), -dot(x, d));
-        let over_a = 1.0 / a;
-        let along = b * over_a;
-        let l = [0, 1, 2].map(|k: usize| x[k] + along * d[k]);
-        Approach {
-            a,
-            over_a,
-            b,
-            c: dot(x, x) - self.radius2,
-            square: self.radius2 - dot(l, l),
-        }
+        Approach::new(x, d.map(f64::from), self.radius2)
     }
 
     /// The least `t > 0` at which a ray hits it; not above 0 where it misses.

@@ -11,14 +11,14 @@ use core::ops::{Index, IndexMut};
 use specula_bsdf::Vec3;
 
 use super::Ray;
-use super::ball::Ball;
+use super::ball::{Approach, Ball};
 use super::block::{BLOCK, RayBlock};
 use super::brute_force::SmallScene;
 use super::clusters::{CORNERS, Cluster, Plane, TRIANGLES};
 use super::frame::AXES;
 use super::parallelepiped::Parallelepiped;
 use super::patch::PreparedPatch;
-use super::quadric::{self, Approach, PreparedQuadric, QuadricShape};
+use super::quadric::{self, PreparedQuadric, QuadricShape};
 use super::rectangle::{self, Rectangle};
 use super::triangle;
 
@@ -443,7 +443,7 @@ impl Pack {
             QuadricShape::Sphere { radius } => {
                 let mut some = 0;
                 for lane in 0..PACK {
-                    let near = Approach::new(o(lane), d(lane), radius);
+                    let near = Approach::new(o(lane), d(lane), radius * radius);
                     is_hit[lane] = u32::from(near.hits());
                     some |= is_hit[lane];
                 }
@@ -451,8 +451,7 @@ impl Pack {
                     return;
                 }
                 for lane in 0..PACK {
-                    let near = Approach::new(o(lane), d(lane), radius);
-                    t[lane] = near.t(o(lane), radius);
+                    t[lane] = Approach::new(o(lane), d(lane), radius * radius).t();
                 }
             }
         }

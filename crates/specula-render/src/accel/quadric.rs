@@ -4,7 +4,7 @@ use glam::{DAffine3, DMat4, DVec3};
 use specula_bsdf::{Real, Vec3};
 use specula_scene::scene::QuadricPart;
 
-use super::ball::Ball;
+use super::ball::{Approach, Ball};
 use super::input::invertible;
 use super::{Bounds, Ray};
 
@@ -151,12 +151,8 @@ impl PreparedQuadric {
             QuadricShape::Disk { radius, height } => disk(o, d, radius, height),
             QuadricShape::Part(part) => part_distance(o, d, &part),
             QuadricShape::Sphere { radius } => {
-                let near = Approach::new(o, d, radius);
-                if near.hits() {
-                    near.t(o, radius)
-                } else {
-                    f32::NAN
-                }
+                let near = Approach::new(o, d, radius * radius);
+                if near.hits() { near.t() } else { f32::NAN }
             }
         }
     }
@@ -226,10 +222,9 @@ pub(super) fn part_distance(o: [f64; 3], d: [f64; 3], part: &QuadricPart) -> f32
 
 /// Both roots in order; NaN where there are none.
 fn roots(o: [f64; 3], d: [f64; 3], radius: f64) -> [f64; 2] {
-    let near = Approach::new(o, d, radius);
+    let near = Approach::new(o, d, radius * radius);
     if near.hits() {
-        let (near, far) = near.roots(o, radius);
-        [near, far]
+        near.roots()
     } else {
         [f64::NAN; 2]
     }
@@ -273,55 +268,4 @@ fn is_on_part(part: &QuadricPart, x: f64, y: f64, z: f64) -> bool {
         phi
     };
     phi <= f64::from(phi_max)
-}
-
-/// The intersection of a ray with a sphere: terms of the quadratic equation.
-///
-/// The discriminant comes from the vector between the centre and the ray's closest point, the roots
-/// from `q` and `c / q`, neither of which cancels (Haines, Guenther and Akenine-Moeller 2019, Ray
-/// Tracing Gems 7, eqs. 5 and 10).
-#[derive(Clone, Copy)]
-pub(super) struct Approach {
-    a: f64,
-    b: f64,
-    discriminant: f64,
-}
-
-impl Approach {
-    #[inline(always)]
-    pub(super) fn new(o: [f64; 3], d: [f64; 3], radius: f64) -> Self {
-        let (o, d) = (DVec3::from_array(o), DVec3::from_array(d));
-        let a = d.length_squared();
-        let b = -o.dot(d);
-        let closest = o + d * (b / a);
-        Self {
-            a,
-            b,
-            discriminant: radius * radius - closest.length_squared(),
-        }
-    }
-
-    /// Whether the ray, or its backward extension, hits the sphere.
-    #[inline(always)]
-    pub(super) fn hits(&self) -> bool {
-        self.discriminant >= 0.0
-    }
-
-    /// `t` of the hit, if there is one; not positive where the sphere lies behind.
-    #[inline(always)]
-    pub(super) fn t(&self, o: [f64; 3], radius: f64) -> f32 {
-        let (near, far) = self.roots(o, radius);
-        f32::of(if near > 0.0 { near } else { far })
-    }
-
-    /// Both roots, the lesser first.
-    #[inline(always)]
-    fn roots(&self, o: [f64; 3], radius: f64) -> (f64, f64) {
-        let Self { a, b, discriminant } = *self;
-        let distance = DVec3::from_array(o).length();
-        let q = b + (a * discriminant).sqrt().copysign(b);
-        let c = (distance - radius) * (distance + radius);
-        let (t0, t1) = (c / q, q / a);
-        if t0 < t1 { (t0, t1) } else { (t1, t0) }
-    }
 }

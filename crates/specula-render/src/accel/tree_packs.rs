@@ -456,7 +456,7 @@ impl<'a> Pack<'a> {
             let at = |c: &[Column; 3]| [c[0].0[lane], c[1].0[lane], c[2].0[lane]];
             let near = ball.approach(at(&self.origin), at(&self.direction));
             t.0[lane] = near.t();
-            misses.0[lane] = if near.square < 0.0 { 1.0 } else { 0.0 };
+            misses.0[lane] = if near.hits() { 0.0 } else { 1.0 };
         }
         let inside = lanes & kernel.are_at_most(&misses.0, &Column::ZERO.0);
         let zero = &Column::ZERO;

@@ -9,15 +9,14 @@
 use macro_rules_attribute::apply;
 use specula_bsdf::{Rgb, Vec3};
 
-use super::area::Area;
+use super::area::{Area, AreaSample};
 use super::choices::{Choices, Floats, NO_LIGHT};
 use super::environment::{BATCH_SIZE, DirectionBatch, Environment};
 use super::node::Node;
 use super::select::Selection;
 use super::shape_queues::ShapeQueues;
-use super::{Far, LightSample, Lights, Parallelogram, Receiver, Source};
+use super::{Far, LightSample, Lights, Parallelogram, Receiver, Source, from_area};
 use crate::geometry::Geometry;
-use crate::offset::SurfacePoint;
 use crate::simd::simd_levels;
 use crate::soa;
 use crate::texture::Textures;
@@ -314,23 +313,16 @@ impl Lights {
         };
         sample_points(n, light, queue);
         for i in 0..n {
-            let (wi, pdf) = (queue.samples.wi.get(i), queue.samples.pdf[i]);
-            let emits = *two_sided || light.normal.dot(wi) < 0.0;
-            let sampled = LightSample {
-                wi,
-                radiance: *radiance,
-                pdf: queue.waiting.probabilities[i] * pdf,
-                delta: false,
-                target: Some(SurfacePoint {
-                    position: queue.samples.point.get(i),
-                    error: light.error,
-                    normal: light.normal,
-                }),
+            let sample = AreaSample {
+                point: queue.samples.point.get(i),
+                error: light.error,
+                normal: light.normal,
+                wi: queue.samples.wi.get(i),
+                pdf: queue.samples.pdf[i],
             };
-            store(
-                queue.waiting.vertices[i],
-                (emits && pdf > 0.0).then_some(sampled),
-            );
+            let probability = queue.waiting.probabilities[i];
+            let sampled = from_area(&sample, *radiance, *two_sided, probability);
+            store(queue.waiting.vertices[i], sampled);
         }
     }
 
@@ -434,7 +426,7 @@ mod tests {
     use crate::options::RenderOptions;
     use crate::prepared::PreparedScene;
     use crate::sampler::Sampler;
-    use specula_bsdf::math::{vec3, warp};
+    use specula_bsdf::math::{rgb, vec3, warp};
     use specula_scene::scene::Light;
 
     /// The orbs under their picture alone, and with a sun, a point and their own lamps beside it.
@@ -443,7 +435,7 @@ mod tests {
             let mut scene = specula_scene::builtin::orbs();
             if mixed {
                 scene.lights.push(Light::Distant {
-                    irradiance: Rgb::splat(2.0),
+                    irradiance: rgb(2.0, 1.5, 3.0),
                     to_light: [0.6, 0.0, 0.8],
                     half_angle_deg: 3.0,
                 });
@@ -451,7 +443,7 @@ mod tests {
                 for i in 0_u8..10 {
                     scene.lights.push(Light::Point {
                         position: [1.0, 2.0 - f64::from(i), 5.0],
-                        intensity: Rgb::splat(4.0),
+                        intensity: rgb(4.0, 5.0, 2.0),
                     });
                 }
             } else {
@@ -465,6 +457,11 @@ mod tests {
 
     fn apart(a: f32, b: f32) -> bool {
         (a - b).abs() > 1e-5 * a.abs().max(b.abs())
+    }
+
+    fn differ(a: Rgb<f32>, b: Rgb<f32>) -> bool {
+        let pairs = a.to_array().into_iter().zip(b.to_array());
+        pairs.into_iter().any(|(a, b)| apart(a, b))
     }
 
     fn random_numbers(i: usize) -> [f32; 4] {
@@ -517,7 +514,7 @@ mod tests {
                     continue;
                 };
                 assert!((a.wi - b.wi).length() < 1e-6 && !apart(a.pdf, b.pdf));
-                assert!(!apart(a.radiance.r, b.radiance.r) && !apart(a.radiance.b, b.radiance.b));
+                assert!(!differ(a.radiance, b.radiance));
                 assert_eq!((a.delta, a.target.is_none()), (b.delta, b.target.is_none()));
                 *(if a.target.is_none() {
                     &mut far
@@ -557,7 +554,7 @@ mod tests {
                 let expected: Vec<_> = lights.arriving_from_infinity(direction(i)).collect();
                 assert_eq!(found.len(), expected.len());
                 for ((c, p), (radiance, pdf)) in found.iter().zip(expected) {
-                    assert!(!apart(*p, pdf) && !apart(c.r, radiance.r) && !apart(c.b, radiance.b));
+                    assert!(!apart(*p, pdf) && !differ(*c, radiance));
                 }
             }
         }

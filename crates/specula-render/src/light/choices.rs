@@ -40,7 +40,8 @@ pub(super) struct Choices {
     pub(super) probability: Floats,
     /// Whether a light from infinity is chosen.
     is_far: [bool; BATCH_SIZE],
-    /// What is left of the random number for the choice within the class.
+    /// What is left of the random number for the choice within the class; for lights in the scene, times the sum of the
+    /// weights.
     rest: Doubles,
     /// The sum of the weights, and of those of the lights passed so far.
     sum: Doubles,

@@ -274,15 +274,10 @@ impl Lights {
                 area,
                 radiance,
                 two_sided,
-            } => {
-                let s = area.sample(p, u)?;
-                (*two_sided || s.normal.dot(s.wi) < 0.0)
-                    .then(|| from_area(&s, *radiance, probability))
-            }
+            } => from_area(&area.sample(p, u)?, *radiance, *two_sided, probability),
             Source::Textured(light) => {
                 let (s, radiance) = light.sample(p, u, world)?;
-                (light.two_sided || s.normal.dot(s.wi) < 0.0)
-                    .then(|| from_area(&s, radiance, probability))
+                from_area(&s, radiance, light.two_sided, probability)
             }
             Source::Far(_) | Source::Portal(_) => {
                 let (wi, radiance, pdf) = match &self.sources[index as usize] {
@@ -473,10 +468,16 @@ impl Far {
     }
 }
 
-/// A sampled point of a shape, sampled from a light of this probability.
-#[inline]
-fn from_area(s: &AreaSample, radiance: Rgb<f32>, probability: f32) -> LightSample {
-    LightSample {
+/// A sampled point of a light of this probability; `None` where that sends nothing to the receiver.
+#[inline(always)]
+fn from_area(
+    s: &AreaSample,
+    radiance: Rgb<f32>,
+    two_sided: bool,
+    probability: f32,
+) -> Option<LightSample> {
+    let arrives = (s.pdf > 0.0) & (two_sided | (s.normal.dot(s.wi) < 0.0));
+    arrives.then_some(LightSample {
         wi: s.wi,
         radiance,
         pdf: probability * s.pdf,
@@ -486,7 +487,7 @@ fn from_area(s: &AreaSample, radiance: Rgb<f32>, probability: f32) -> LightSampl
             error: s.error,
             normal: s.normal,
         }),
-    }
+    })
 }
 
 fn world_corners(corners: [Vec3<f32>; 3], m: &DMat4) -> [Vec3<f32>; 3] {

@@ -21,13 +21,27 @@ use crate::simd::simd_levels;
 
 /// Vertices for which such lights were chosen, and the lights.
 pub(super) struct ShapeQueues {
-    spheres: Waiting,
-    of_spheres: Spheres,
-    triangles: Waiting,
-    of_triangles: Triangles,
-    parallelograms: Waiting,
-    of_parallelograms: Parallelograms,
+    spheres: ShapeQueue<Spheres>,
+    triangles: ShapeQueue<Triangles>,
+    parallelograms: ShapeQueue<Parallelograms>,
     samples: AreaSamples,
+}
+
+/// Vertices for which lights of one shape were chosen.
+struct ShapeQueue<L> {
+    waiting: Waiting,
+    /// The light of each.
+    lights: L,
+}
+
+/// Lights in columns.
+trait LightColumns {
+    type Light;
+
+    fn set(&mut self, at: usize, light: &Self::Light);
+
+    /// Samples points for the first `n` receivers.
+    fn sample_all(&self, n: usize, waiting: &Waiting, samples: &mut AreaSamples);
 }
 
 struct Spheres {
@@ -64,7 +78,9 @@ struct AreaSamples {
     pdf: Floats,
 }
 
-impl Spheres {
+impl LightColumns for Spheres {
+    type Light = Sphere;
+
     #[inline(always)]
     fn set(&mut self, at: usize, light: &Sphere) {
         self.centre.set(at, light.centre);
@@ -72,6 +88,12 @@ impl Spheres {
         self.side[at] = light.side;
     }
 
+    fn sample_all(&self, n: usize, waiting: &Waiting, samples: &mut AreaSamples) {
+        sample_spheres(n, waiting, self, samples);
+    }
+}
+
+impl Spheres {
     #[inline(always)]
     fn get(&self, at: usize) -> Sphere {
         Sphere {
@@ -82,7 +104,9 @@ impl Spheres {
     }
 }
 
-impl Triangles {
+impl LightColumns for Triangles {
+    type Light = Triangle;
+
     #[inline(always)]
     fn set(&mut self, at: usize, light: &Triangle) {
         self.corner.set(at, light.corner);
@@ -92,6 +116,12 @@ impl Triangles {
         self.area[at] = light.area;
     }
 
+    fn sample_all(&self, n: usize, waiting: &Waiting, samples: &mut AreaSamples) {
+        sample_triangles(n, waiting, self, samples);
+    }
+}
+
+impl Triangles {
     #[inline(always)]
     fn get(&self, at: usize) -> Triangle {
         Triangle {
@@ -103,7 +133,9 @@ impl Triangles {
     }
 }
 
-impl Parallelograms {
+impl LightColumns for Parallelograms {
+    type Light = Parallelogram;
+
     #[inline(always)]
     fn set(&mut self, at: usize, light: &Parallelogram) {
         self.corner.set(at, light.corner);
@@ -118,6 +150,12 @@ impl Parallelograms {
         self.error[at] = light.error.x;
     }
 
+    fn sample_all(&self, n: usize, waiting: &Waiting, samples: &mut AreaSamples) {
+        sample_parallelograms(n, waiting, self, samples);
+    }
+}
+
+impl Parallelograms {
     #[inline(always)]
     fn get(&self, at: usize) -> Parallelogram {
         Parallelogram {
@@ -155,23 +193,60 @@ impl AreaSamples {
     }
 }
 
+impl<L> ShapeQueue<L> {
+    const fn new(lights: L) -> Self {
+        Self {
+            waiting: Waiting::EMPTY,
+            lights,
+        }
+    }
+}
+
+impl<L: LightColumns> ShapeQueue<L> {
+    /// Adds a receiver of a light; samples the queue if it is full.
+    ///
+    /// * `chosen`: the light with its index and probability.
+    #[inline(always)]
+    fn push(
+        &mut self,
+        vertex: usize,
+        (light, chosen): (&L::Light, (u32, f32)),
+        (p, u): (Vec3<f32>, [f32; 2]),
+        out: (&mut AreaSamples, &[Source]),
+        store: &mut impl FnMut(usize, Option<LightSample>),
+    ) {
+        self.lights.set(self.waiting.next(), light);
+        if self.waiting.push(vertex, chosen, p, u) {
+            self.sample(out, store);
+        }
+    }
+
+    /// Samples lights for all that wait.
+    fn sample(
+        &mut self,
+        (samples, sources): (&mut AreaSamples, &[Source]),
+        store: &mut impl FnMut(usize, Option<LightSample>),
+    ) {
+        let n = self.waiting.take_count();
+        self.lights.sample_all(n, &self.waiting, samples);
+        store_samples(n, sources, &self.waiting, samples, store);
+    }
+}
+
 impl ShapeQueues {
     pub(super) const EMPTY: Self = Self {
-        spheres: Waiting::EMPTY,
-        of_spheres: Spheres {
+        spheres: ShapeQueue::new(Spheres {
             centre: Vectors::ZERO,
             radius: ZERO,
             side: ZERO,
-        },
-        triangles: Waiting::EMPTY,
-        of_triangles: Triangles {
+        }),
+        triangles: ShapeQueue::new(Triangles {
             corner: Vectors::ZERO,
             edges: [Vectors::ZERO; 2],
             normal: Vectors::ZERO,
             area: ZERO,
-        },
-        parallelograms: Waiting::EMPTY,
-        of_parallelograms: Parallelograms {
+        }),
+        parallelograms: ShapeQueue::new(Parallelograms {
             corner: Vectors::ZERO,
             edges: [Vectors::ZERO; 2],
             normal: Vectors::ZERO,
@@ -180,7 +255,7 @@ impl ShapeQueues {
             sides: [ZERO; 2],
             least: ZERO,
             error: ZERO,
-        },
+        }),
         samples: AreaSamples {
             point: Vectors::ZERO,
             error: ZERO,
@@ -205,24 +280,16 @@ impl ShapeQueues {
         let Some(Source::Area { area, .. }) = sources.get(chosen.0 as usize) else {
             return false;
         };
+        let (receiver, out) = ((p, u), (&mut self.samples, sources));
         match area {
             Area::Sphere(light) => {
-                self.of_spheres.set(self.spheres.next(), light);
-                if self.spheres.push(vertex, chosen, p, u) {
-                    self.sample_spheres(sources, store);
-                }
+                (self.spheres).push(vertex, (light, chosen), receiver, out, store);
             }
             Area::Triangle(light) => {
-                self.of_triangles.set(self.triangles.next(), light);
-                if self.triangles.push(vertex, chosen, p, u) {
-                    self.sample_triangles(sources, store);
-                }
+                (self.triangles).push(vertex, (light, chosen), receiver, out, store);
             }
             Area::Parallelogram(light) => {
-                (self.of_parallelograms).set(self.parallelograms.next(), light);
-                if self.parallelograms.push(vertex, chosen, p, u) {
-                    self.sample_parallelograms(sources, store);
-                }
+                (self.parallelograms).push(vertex, (light, chosen), receiver, out, store);
             }
             Area::Disk { .. } | Area::Ellipsoid { .. } => return false,
         }
@@ -235,40 +302,9 @@ impl ShapeQueues {
         sources: &[Source],
         store: &mut impl FnMut(usize, Option<LightSample>),
     ) {
-        self.sample_spheres(sources, store);
-        self.sample_triangles(sources, store);
-        self.sample_parallelograms(sources, store);
-    }
-
-    fn sample_spheres(
-        &mut self,
-        sources: &[Source],
-        store: &mut impl FnMut(usize, Option<LightSample>),
-    ) {
-        let n = self.spheres.take_count();
-        sample_spheres(n, &self.spheres, &self.of_spheres, &mut self.samples);
-        store_samples(n, sources, &self.spheres, &self.samples, store);
-    }
-
-    fn sample_triangles(
-        &mut self,
-        sources: &[Source],
-        store: &mut impl FnMut(usize, Option<LightSample>),
-    ) {
-        let n = self.triangles.take_count();
-        sample_triangles(n, &self.triangles, &self.of_triangles, &mut self.samples);
-        store_samples(n, sources, &self.triangles, &self.samples, store);
-    }
-
-    fn sample_parallelograms(
-        &mut self,
-        sources: &[Source],
-        store: &mut impl FnMut(usize, Option<LightSample>),
-    ) {
-        let n = self.parallelograms.take_count();
-        let lights = &self.of_parallelograms;
-        sample_parallelograms(n, &self.parallelograms, lights, &mut self.samples);
-        store_samples(n, sources, &self.parallelograms, &self.samples, store);
+        self.spheres.sample((&mut self.samples, sources), store);
+        self.triangles.sample((&mut self.samples, sources), store);
+        (self.parallelograms).sample((&mut self.samples, sources), store);
     }
 }
 
@@ -291,8 +327,7 @@ fn store_samples(
             continue;
         };
         let sample = samples.get(i);
-        let arrives = sample.pdf > 0.0 && (*two_sided || sample.normal.dot(sample.wi) < 0.0);
-        let sampled = arrives.then(|| from_area(&sample, *radiance, waiting.probabilities[i]));
+        let sampled = from_area(&sample, *radiance, *two_sided, waiting.probabilities[i]);
         store(waiting.vertices[i], sampled);
     }
 }
@@ -336,7 +371,6 @@ mod tests {
     use crate::accel::QuadricShape;
     use crate::sampler::Sampler;
     use glam::{DMat4, DVec3};
-    use specula_bsdf::Rgb;
     use specula_bsdf::math::vec3;
 
     /// Spheres, triangles, rectangles, skewed parallelograms and disks, some of them two-sided.
@@ -364,7 +398,7 @@ mod tests {
                 };
                 Source::Area {
                     area,
-                    radiance: Rgb::splat(1.0 + next(10)),
+                    radiance: (at(10) + Vec3::splat(1.0)).to_array().into(),
                     two_sided: i % 3 == 0,
                 }
             })
@@ -418,7 +452,7 @@ mod tests {
             let expected = area
                 .sample(p, u)
                 .filter(|s| *two_sided || s.normal.dot(s.wi) < 0.0)
-                .map(|s| from_area(&s, *radiance, probability));
+                .and_then(|s| from_area(&s, *radiance, *two_sided, probability));
             assert_eq!(format!("{found:?}"), format!("{expected:?}"));
             lit += usize::from(found.is_some());
         }
