@@ -49,6 +49,18 @@ impl Piecewise {
         }
     }
 
+    /// Its mean, without a table.
+    ///
+    /// * `weight`: as of [`Piecewise::new`].
+    pub(super) fn mean_of(
+        [width, height]: [usize; 2],
+        weight: impl Fn(usize, usize) -> f64 + Sync,
+    ) -> f64 {
+        let row = |y: usize| (0..width).map(|x| weight(x, y)).sum::<f64>();
+        let sums: Vec<f64> = (0..height).into_par_iter().map(row).collect();
+        sums.iter().sum::<f64>() / (width * height) as f64
+    }
+
     /// Density at a point, per area of the square.
     #[inline]
     pub(super) fn density(&self, [u, v]: [f32; 2]) -> f32 {
@@ -219,10 +231,12 @@ mod tests {
             [33, 5],
             [300, 70],
         ] {
-            let table = Piecewise::new([width, height], |x, y| match (x * 7 + y * 3) % 5 {
+            let weight = |x: usize, y: usize| match (x * 7 + y * 3) % 5 {
                 0 | 3 => 0.0,
                 k => (k * k) as f64 + (x as f64 * 0.37).sin().abs(),
-            });
+            };
+            let table = Piecewise::new([width, height], weight);
+            assert_eq!(Piecewise::mean_of([width, height], weight), table.mean);
             let mut state = 1_u32;
             for round in 0..40 {
                 let shares = if round % 2 == 0 {

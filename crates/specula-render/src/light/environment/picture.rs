@@ -81,10 +81,11 @@ impl Picture {
             table: Piecewise::new([1, 1], |_, _| 0.0),
             mean: 0.0,
         };
-        picture.tabulate();
+        let sines = picture.sines();
         if beside_lobes {
-            picture.leave_to_lobes();
+            picture.leave_to_lobes(&sines);
         }
+        picture.tabulate(&sines);
         Some(picture)
     }
 
@@ -92,32 +93,49 @@ impl Picture {
     /// everywhere, so that samples of lights do more in what stands out.
     ///
     /// Source: Karlik et al. 2019, "MIS Compensation", for light from a picture (there without a floor).
-    fn leave_to_lobes(&mut self) {
+    fn leave_to_lobes(&mut self, sines: &[f64]) {
+        self.mean = self.mean_of(Piecewise::mean_of(self.cells(), self.cell_weight(sines)));
         let mean = narrow(self.integral() / (4.0 * core::f64::consts::PI));
         self.corners.par_iter_mut().for_each(|[.., strength]| {
             *strength = (*strength - mean).max(LEAST_WEIGHT * *strength);
         });
-        self.tabulate();
     }
 
-    fn tabulate(&mut self) {
-        use core::f64::consts::PI;
-        let [width, height] = self.axes.map(|a| a.cells);
-        let sines: Vec<f64> = (0..height)
-            .map(|y| {
-                let [low, high] = self.axes[1].range(y);
-                let middle = self.axes[1].place(y, 0.5 * (low + high));
-                match self.mapping {
-                    EnvironmentMapping::EqualAreaOctahedral => 1.0,
-                    _ => (f64::from(middle) * PI).sin(),
-                }
-            })
-            .collect();
-        let table = Piecewise::new([width, height].map(|n| n as usize), |x, y| {
-            self.weight([x, y].map(id)) * sines[y]
-        });
+    /// By row of cells: sine of the polar angle for latitude and longitude, else 1.
+    fn sines(&self) -> Vec<f64> {
+        let sine = |y: u32| {
+            let [low, high] = self.axes[1].range(y);
+            let middle = self.axes[1].place(y, 0.5 * (low + high));
+            match self.mapping {
+                EnvironmentMapping::EqualAreaOctahedral => 1.0,
+                _ => (f64::from(middle) * core::f64::consts::PI).sin(),
+            }
+        };
+        (0..self.axes[1].cells).map(sine).collect()
+    }
+
+    fn cells(&self) -> [usize; 2] {
+        self.axes.map(|a| a.cells as usize)
+    }
+
+    /// What a cell is sampled by.
+    fn cell_weight(&self, sines: &[f64]) -> impl Fn(usize, usize) -> f64 + Sync {
+        |x, y| self.weight([x, y].map(id)) * sines[y]
+    }
+
+    /// The mean over the square.
+    ///
+    /// * `cells`: that of the cells' weights.
+    fn mean_of(&self, cells: f64) -> f64 {
+        let [width, height] = self.axes.map(|a| f64::from(a.cells));
         let whole = f64::from(self.axes[0].steps) * f64::from(self.axes[1].steps);
-        self.mean = table.mean * f64::from(width) * f64::from(height) / whole;
+        cells * width * height / whole
+    }
+
+    fn tabulate(&mut self, sines: &[f64]) {
+        use core::f64::consts::PI;
+        let table = Piecewise::new(self.cells(), self.cell_weight(sines));
+        self.mean = self.mean_of(table.mean);
         let jacobian = match self.mapping {
             EnvironmentMapping::EqualAreaOctahedral => 0.25 / PI,
             _ => 0.5 / (PI * PI),
