@@ -1,4 +1,5 @@
-//! The test of rays against spheres that no transform squeezes: of many rays mostly in single precision, of one in double.
+//! The test of rays against spheres: of many rays mostly in single precision where no transform squeezes the sphere, else
+//! in double.
 //!
 //! ```text
 //! l = (o - c) + (b / a) d                a = d . d,  b = -(o - c) . d        the point nearest to the centre

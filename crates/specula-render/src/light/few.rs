@@ -6,7 +6,7 @@
 use super::node::LEAST_SHARE;
 use crate::convert::narrow;
 
-/// Most lights that are chosen among by the importance of each; a power of two, as that divides fast.
+/// Most lights that are chosen among by the importance of each.
 pub(super) const MOST_LIGHTS: usize = 16;
 
 /// What a light is chosen in proportion to: its importance, off 0 unless that is 0; the same for all where nothing
